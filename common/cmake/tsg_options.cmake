@@ -1,0 +1,25 @@
+# What every target of ours is compiled with, and the switches of the presets.
+set(TSG_SANITIZE "" CACHE STRING "Sanitizers for all targets, e.g. address,undefined or thread")
+set(TSG_SHARED_DIR "${CMAKE_SOURCE_DIR}/../shared" CACHE PATH
+    "Recorded sequences and models for tests; tests that need it skip where it is absent")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+add_library(tsg_options INTERFACE)
+target_compile_options(tsg_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+target_include_directories(tsg_options INTERFACE ${CMAKE_SOURCE_DIR})
+
+if(TSG_SANITIZE)
+  add_compile_options(-fsanitize=${TSG_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${TSG_SANITIZE})
+endif()

@@ -1,0 +1,27 @@
+#include "common/geometry/camera_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tsg {
+
+bool CameraModel::is_distorted() const {
+  return std::any_of(distortion.begin(), distortion.end(), [](double k) { return k != 0.0; });
+}
+
+std::vector<std::string> CameraModel::problems() const {
+  std::vector<std::string> found;
+  if (width <= 0) found.emplace_back("width must be > 0");
+  if (height <= 0) found.emplace_back("height must be > 0");
+  if (!(fx > 0.0) || !std::isfinite(fx)) found.emplace_back("fx must be > 0");
+  if (!(fy > 0.0) || !std::isfinite(fy)) found.emplace_back("fy must be > 0");
+  if (!(cx > 0.0 && cx < width)) found.emplace_back("cx must lie inside the image");
+  if (!(cy > 0.0 && cy < height)) found.emplace_back("cy must lie inside the image");
+  if (!std::all_of(distortion.begin(), distortion.end(),
+                   [](double k) { return std::isfinite(k); })) {
+    found.emplace_back("distortion coefficients must be finite");
+  }
+  return found;
+}
+
+}  // namespace tsg
