@@ -18,6 +18,10 @@ class ConfigFile {
   /// Nothing but overrides.
   static ConfigFile from_overrides(const std::vector<std::string>& overrides);
 
+  /// A sentence, with file and line, for each entry outside the named top-level sections.
+  [[nodiscard]] std::vector<std::string> unknown_sections(
+      const std::vector<std::string>& known_sections) const;
+
   ~ConfigFile();
   ConfigFile(ConfigFile&&) noexcept;
   ConfigFile& operator=(ConfigFile&&) noexcept;
@@ -48,8 +52,8 @@ class ConfigReader {
   void read(std::string_view key, std::vector<std::string>& value);
   void read(std::string_view key, std::vector<double>& value);
 
-  /// Throws FatalError (kConfig) listing `more_problems`, every value of a wrong type and every
-  /// key that nobody read, with file and line.
+  /// Throws FatalError (kConfig) listing every value of a wrong type and every key that nobody
+  /// read, with file and line, and `more_problems` (each starting with the name of its key).
   void finish(const std::vector<std::string>& more_problems = {});
 
  private:

@@ -28,7 +28,7 @@ struct LogField {
 /// journald reads when stderr is the journal. Thread-safe. Nodes log, libraries do not.
 class Log {
  public:
-  explicit Log(std::string service, LogLevel least = LogLevel::kInfo);
+  explicit Log(const std::string& service, LogLevel least = LogLevel::kInfo);
 
   void debug(std::string_view event, std::initializer_list<LogField> fields = {});
   void info(std::string_view event, std::initializer_list<LogField> fields = {});

@@ -12,9 +12,12 @@ namespace tsg {
 struct ServiceContext {
   const ConfigFile& config;
   Log log;
-  std::stop_token stop;         ///< requested by SIGTERM or SIGINT
-  bool check_config_only;       ///< --check-config: load the configuration, then return
-  std::function<void()> ready;  ///< call once when working: sd_notify READY, starts the watchdog
+  std::stop_token stop;    ///< requested by SIGTERM or SIGINT
+  bool check_config_only;  ///< --check-config: load the configuration, then return
+  /// Call once when the service works: tells systemd (READY=1) and logs it.
+  std::function<void()> ready;
+  /// Call from the main loop at least once a second: feeds systemd's watchdog where there is one.
+  std::function<void()> heartbeat;
 };
 
 struct ServiceInfo {
@@ -24,7 +27,7 @@ struct ServiceInfo {
 
 /// The frame of every service: parses arguments (--config FILE, --set section.key=value,
 /// --check-config, --log-level, --version), loads the configuration, turns signals into `stop`,
-/// talks to systemd, and turns FatalError into a message and its exit code.
+/// talks to systemd, and turns FatalError into a message and its exit code, which it returns.
 int run_service(int argc,
                 char** argv,
                 const ServiceInfo& info,
