@@ -1,0 +1,75 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/geometry/se3.hpp"
+#include "common/rgbd/instances.hpp"
+#include "common/rgbd/rgbd_frame.hpp"
+#include "services/slam/lib/keyframe_candidate.hpp"
+#include "services/slam/lib/local_map_snapshot.hpp"
+#include "services/slam/lib/slam_config.hpp"
+
+namespace tsg {
+
+enum class TrackingState {
+  kInitialising,  ///< no map yet: the view has too few features with depth to start one
+  kTracking,
+  kLost,  ///< no pose; every frame tries to find the map again
+};
+
+/// World is the optical frame of the first keyframe: x right, y down, z forward.
+struct TrackResult {
+  std::uint64_t seq = 0;
+  std::int64_t stamp_ns = 0;
+  TrackingState state = TrackingState::kInitialising;
+  std::optional<SE3> T_world_camera;  ///< set exactly when state == kTracking
+  KeyframeId reference = 0;           ///< the keyframe that shares most map points
+  SE3 T_reference_camera;             ///< the same pose, relative to it
+  bool relocalised = false;           ///< tracking again after it was lost
+  int matches = 0;                    ///< features matched to points of the map or the last frame
+  int inliers = 0;                    ///< of these, kept by the last pose optimisation
+  FeatureCounts features;
+  int mask_age_frames = -1;
+  std::string reason;                         ///< why there is no pose; empty while tracking
+  std::optional<KeyframeCandidate> keyframe;  ///< for LocalMapper::insert
+  std::vector<PointId> dynamic_points;        ///< for LocalMapper::remove_points: found to lie
+                                              ///< on dynamic instances once their mask came
+};
+
+/// What track() spends its time on; each may begin several times in one frame.
+enum class TrackingStage { kMatch, kOptimise, kDecide };
+
+/// Finds the camera's pose in the local map, frame by frame.
+/// Deterministic; not thread-safe: the tracking thread owns it.
+class Tracker {
+ public:
+  /// `on_stage`, if given, is called when a stage begins: libraries have no clock, nodes do.
+  Tracker(const SlamConfig& config,
+          const CameraModel& camera,
+          std::function<void(TrackingStage)> on_stage = {});
+  ~Tracker();
+  Tracker(Tracker&&) noexcept;
+  Tracker& operator=(Tracker&&) noexcept;
+  Tracker(const Tracker&) = delete;
+  Tracker& operator=(const Tracker&) = delete;
+
+  /// Features of `frame` without those on dynamic instances. `mask` may be null; it may belong to
+  /// an older frame and is then carried forward to this one. Both are only read during the call.
+  /// The images must have the camera's size and the types of RgbdFrame (checked by the node).
+  [[nodiscard]] std::shared_ptr<const Features> extract(const RgbdFrame& frame,
+                                                        const InstanceSegmentation* mask);
+
+  /// The pose of the frame that `features` belong to. Call with the frames in their order.
+  [[nodiscard]] TrackResult track(const std::shared_ptr<const Features>& features,
+                                  const LocalMapSnapshot& map);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tsg

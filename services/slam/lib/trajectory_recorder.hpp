@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/geometry/se3.hpp"
+#include "services/slam/lib/local_mapper.hpp"
+#include "services/slam/lib/tracker.hpp"
+
+namespace tsg {
+
+/// A camera pose at a time; T_world_camera as in TrackResult.
+struct StampedPose {
+  std::int64_t stamp_ns = 0;
+  SE3 T_world_camera;
+};
+
+/// Remembers every tracked frame relative to its reference keyframe, so that what bundle
+/// adjustment learns later corrects the frames before as well.
+class TrajectoryRecorder {
+ public:
+  /// Frames without a pose are counted, not recorded.
+  void record(const TrackResult& result);
+
+  /// Poses as they were when each frame was tracked.
+  [[nodiscard]] std::vector<StampedPose> live() const;
+  /// Poses by where the keyframes are now. `keyframes` must be sorted by id and hold every
+  /// reference (LocalMapper::keyframe_poses()); frames whose reference is not there are left out.
+  [[nodiscard]] std::vector<StampedPose> corrected(
+      const std::vector<KeyframePose>& keyframes) const;
+
+  [[nodiscard]] std::size_t tracked() const { return entries_.size(); }
+  [[nodiscard]] std::size_t lost() const { return lost_; }  ///< after the first pose
+
+ private:
+  struct Entry {
+    std::int64_t stamp_ns;
+    KeyframeId reference;
+    SE3 T_reference_camera;
+    SE3 T_world_camera;
+  };
+  std::vector<Entry> entries_;
+  std::size_t lost_ = 0;
+};
+
+}  // namespace tsg
