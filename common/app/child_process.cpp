@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "common/app/stop_on_signal.hpp"
@@ -75,14 +76,14 @@ Expected<int> open_output(const std::filesystem::path& path) {
   const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, kMode);
   if (fd >= 0) return fd;
   return make_error(ExitCode::kCannotWrite,
-                    path.string() + ": cannot be opened for writing: " + std::strerror(errno));
+                    path.string() + ": cannot be opened for writing: " + errno_text());
 }
 
 }  // namespace
 
 std::string ChildExit::describe() const {
   if (signal == 0) return "exit code " + std::to_string(exit_code);
-  return "killed by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+  return "killed by signal " + std::to_string(signal) + " (SIG" + sigabbrev_np(signal) + ")";
 }
 
 Expected<ChildProcess> ChildProcess::spawn(const ChildCommand& command) {
@@ -96,7 +97,7 @@ Expected<ChildProcess> ChildProcess::spawn(const ChildCommand& command) {
   const std::vector<char*> environment = to_pointers(environment_texts);
   std::array<int, 2> error_pipe{};
   if (pipe2(error_pipe.data(), O_CLOEXEC) != 0) {
-    return make_error(ExitCode::kFailure, std::string("pipe2: ") + std::strerror(errno));
+    return make_error(ExitCode::kFailure, std::string("pipe2: ") + errno_text());
   }
   const ChildSetup setup{.arguments = arguments.data(),
                          .environment = environment.data(),
@@ -111,8 +112,8 @@ Expected<ChildProcess> ChildProcess::spawn(const ChildCommand& command) {
   if (pid > 0 && read(error_pipe[0], &error, sizeof(error)) > 0) waitpid(pid, nullptr, 0);
   close(error_pipe[0]);
   if (error != 0) {
-    return make_error(ExitCode::kUnavailable,
-                      command.program + ": cannot be started: " + std::strerror(error));
+    return make_error(ExitCode::kUnavailable, command.program + ": cannot be started: " +
+                                                  std::generic_category().message(error));
   }
   return ChildProcess(pid, static_cast<int>(syscall(SYS_pidfd_open, pid, 0)));
 }

@@ -30,7 +30,7 @@ struct ChildExit {
   double peak_rss_mib = 0.0;
 
   [[nodiscard]] bool is_success() const { return exit_code == 0 && signal == 0; }
-  /// "exit code 66", "killed by signal 9 (Killed)".
+  /// "exit code 66", "killed by signal 9 (SIGKILL)".
   [[nodiscard]] std::string describe() const;
 };
 

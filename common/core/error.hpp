@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cerrno>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <tl/expected.hpp>
 #include <utility>
 
@@ -39,6 +41,9 @@ using Expected = tl::expected<T, Error>;
 [[nodiscard]] inline tl::unexpected<Error> make_error(ExitCode code, std::string message) {
   return tl::unexpected<Error>(Error{code, std::move(message)});
 }
+
+/// What errno says, e.g. "No space left on device"; thread-safe, unlike strerror().
+[[nodiscard]] inline std::string errno_text() { return std::generic_category().message(errno); }
 
 /// Thrown where a process cannot start or go on; only run_service() and tsgctl's main catch it.
 class FatalError : public std::runtime_error {
