@@ -5,26 +5,14 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
-#include <string>
 #include <utility>
 
+#include "common/bus/bus_config.hpp"
 #include "common/bus/endpoint.hpp"
 #include "common/bus/qos.hpp"
 #include "common/core/error.hpp"
 
 namespace tsg {
-
-/// How this process joins the bus. Defaults are what the shipped configuration runs on.
-struct BusConfig {
-  int standard_domain = 0;
-  int shared_memory_domain = 10;
-  /// Network interface of the standard domain; shared memory never leaves the host.
-  std::string interface = "lo";
-  /// False sends images over UDP as well: for tests and for hosts without RouDi; slow.
-  bool use_shared_memory = true;
-
-  [[nodiscard]] std::vector<std::string> problems() const;
-};
 
 /// This process's place on the bus: one participant in each domain. Outlives its endpoints.
 class Bus {
@@ -90,7 +78,7 @@ class Publisher {
 
   /// Memory for one sample, NOT zeroed; kUnavailable where the pool is exhausted (drop the frame
   /// and count it). Without shared memory the loan is on the heap.
-  [[nodiscard]] Expected<Loan<Topic>> loan() {
+  [[nodiscard]] Expected<Loan<Topic>> loan() requires(Topic::kQos.domain == Domain::kSharedMemory) {
     return writer_.loan().map([](RawLoan&& raw) { return Loan<Topic>(std::move(raw)); });
   }
 
