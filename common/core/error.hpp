@@ -27,6 +27,8 @@ enum class ExitCode : int {
   kTimeout = 75,           ///< a peer did not answer in time
   kUnsupportedModel = 76,  ///< a segmentation model of a layout that we do not know
   kConfig = 78,            ///< the configuration is wrong; restarting does not help
+  kInterrupted = 130,      ///< stopped by Ctrl-C (SIGINT) before the work was done
+  kTerminated = 143,       ///< the same by SIGTERM
 };
 
 /// Why something failed, for whoever can act on it. The message names the thing and the fix.
