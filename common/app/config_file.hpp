@@ -23,10 +23,10 @@ class ConfigFile {
       const std::vector<std::string>& known_sections) const;
 
   ~ConfigFile();
-  ConfigFile(ConfigFile&&) noexcept;
-  ConfigFile& operator=(ConfigFile&&) noexcept;
-  ConfigFile(const ConfigFile&) = delete;
-  ConfigFile& operator=(const ConfigFile&) = delete;
+  ConfigFile(ConfigFile&& other) noexcept;
+  ConfigFile& operator=(ConfigFile&& other) noexcept;
+  ConfigFile(const ConfigFile& other) = delete;
+  ConfigFile& operator=(const ConfigFile& other) = delete;
 
  private:
   friend class ConfigReader;

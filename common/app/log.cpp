@@ -54,13 +54,17 @@ std::string quoted(const std::string& value) {
   return result + "\"";
 }
 
+// Where systemd has connected stderr to the journal it says so.
+bool is_on_journal() {
+  return std::getenv("JOURNAL_STREAM") != nullptr;  // NOLINT(concurrency-mt-unsafe): nobody sets it
+}
+
 }  // namespace
 
 struct Log::Impl {
   Impl(const std::string& service, LogLevel least)
       : logger(service, std::make_shared<spdlog::sinks::stderr_sink_mt>()),
-        to_journal(std::getenv("JOURNAL_STREAM") !=
-                   nullptr) {  // NOLINT(concurrency-mt-unsafe): at start
+        to_journal(is_on_journal()) {
     logger.set_level(to_spdlog(least));
     logger.flush_on(spdlog::level::debug);
     // The journal stamps lines itself.

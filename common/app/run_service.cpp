@@ -64,12 +64,12 @@ void run_body(const Arguments& arguments,
                                .check_config_only = arguments.check_config,
                                .ready =
                                    [&] {
-                                     systemd.ready();
+                                     SystemdNotifier::ready();
                                      log.info("ready");
                                    },
                                .heartbeat = [&] { systemd.heartbeat(); }};
   body(context);
-  systemd.stopping();
+  SystemdNotifier::stopping();
   if (arguments.check_config) std::cout << info.name << ": the configuration is sound\n";
 }
 

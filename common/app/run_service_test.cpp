@@ -20,30 +20,36 @@ int run(std::vector<std::string> arguments,
         const std::function<void(const ServiceContext&)>& body) {
   arguments.insert(arguments.begin(), "tsg-slam");
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size());
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   return run_service(static_cast<int>(pointers.size()), pointers.data(), kInfo, body);
 }
 
 using ::testing::ExitedWithCode;
 
+[[noreturn]] void run_and_exit(const std::vector<std::string>& arguments,
+                               const std::function<void(const ServiceContext&)>& body) {
+  std::_Exit(run(arguments, body));
+}
+
 TEST(RunService, EndsWithZeroWhenItsBodyReturns) {
   EXPECT_EQ(run({}, [](const ServiceContext&) {}), 0);
 }
 
 TEST(RunService, TurnsAFatalErrorIntoItsMessageAndExitCode) {
-  EXPECT_EXIT(std::exit(run({},
-                            [](const ServiceContext&) {
-                              throw FatalError(ExitCode::kUnavailable, "RouDi does not run");
-                            })),
+  EXPECT_EXIT(run_and_exit({},
+                           [](const ServiceContext&) {
+                             throw FatalError(ExitCode::kUnavailable, "RouDi does not run");
+                           }),
               ExitedWithCode(69), "tsg-slam: error: RouDi does not run");
 }
 
 TEST(RunService, RefusesAnArgumentThatItDoesNotKnow) {
-  EXPECT_EXIT(std::exit(run({"--no-such"}, [](const ServiceContext&) {})), ExitedWithCode(64), "");
+  EXPECT_EXIT(run_and_exit({"--no-such"}, [](const ServiceContext&) {}), ExitedWithCode(64), "");
 }
 
 TEST(RunService, RefusesASectionThatNoServiceReads) {
-  EXPECT_EXIT(std::exit(run({"--set", "slamm.count=1"}, [](const ServiceContext&) {})),
+  EXPECT_EXIT(run_and_exit({"--set", "slamm.count=1"}, [](const ServiceContext&) {}),
               ExitedWithCode(78), "unknown section 'slamm'");
 }
 
@@ -52,7 +58,7 @@ TEST(RunService, StopsItsBodyOnSigterm) {
     kill(getpid(), SIGTERM);
     while (!context.stop.stop_requested()) std::this_thread::yield();
   };
-  EXPECT_EXIT(std::exit(run({}, body)), ExitedWithCode(0), "");
+  EXPECT_EXIT(run_and_exit({}, body), ExitedWithCode(0), "");
 }
 
 TEST(RunService, TellsItsBodyToCheckTheConfigurationOnly) {

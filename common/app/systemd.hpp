@@ -10,8 +10,8 @@ class SystemdNotifier {
  public:
   SystemdNotifier();
 
-  void ready();
-  void stopping();
+  static void ready();
+  static void stopping();
   /// Feeds the watchdog, at most four times in its period however often it is called.
   void heartbeat();
 
