@@ -3,6 +3,7 @@
 // The generated C types of everything on the bus, and what C++ needs to know of them.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,12 @@ void lend(const std::vector<Element>& values, Sequence& sequence) {
   sequence._length = static_cast<std::uint32_t>(values.size());
   sequence._maximum = sequence._length;
   sequence._release = false;
+}
+
+/// The elements of a received sequence.
+template <typename Sequence>
+[[nodiscard]] auto elements(const Sequence& sequence) {
+  return std::span(sequence._buffer, sequence._length);
 }
 
 }  // namespace tsg
