@@ -1,22 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <vector>
 
 #include "common/core/error.hpp"
 #include "common/dataset/stamp.hpp"
-#include "common/geometry/se3.hpp"
+#include "common/geometry/stamped_pose.hpp"
 
 namespace tsg {
-
-/// Where the camera was at one time; metres.
-struct StampedPose {
-  std::int64_t stamp_ns = 0;
-  SE3 T_world_camera;
-};
-
-using Trajectory = std::vector<StampedPose>;  ///< sorted by stamp, no stamp twice
 
 /// Reads a file in TUM format, a pose a line: stamp tx ty tz qx qy qz qw. Lines may be in any
 /// order; of lines with one stamp the first counts. Errors: kMissingInput, kEmptyInput, kBadData

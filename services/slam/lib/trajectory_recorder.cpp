@@ -13,16 +13,15 @@ void TrajectoryRecorder::record(const TrackResult& result) {
       {result.stamp_ns, result.reference, result.T_reference_camera, *result.T_world_camera});
 }
 
-std::vector<StampedPose> TrajectoryRecorder::live() const {
-  std::vector<StampedPose> poses;
+Trajectory TrajectoryRecorder::live() const {
+  Trajectory poses;
   poses.reserve(entries_.size());
   for (const Entry& entry : entries_) poses.push_back({entry.stamp_ns, entry.T_world_camera});
   return poses;
 }
 
-std::vector<StampedPose> TrajectoryRecorder::corrected(
-    const std::vector<KeyframePose>& keyframes) const {
-  std::vector<StampedPose> poses;
+Trajectory TrajectoryRecorder::corrected(const std::vector<KeyframePose>& keyframes) const {
+  Trajectory poses;
   poses.reserve(entries_.size());
   for (const Entry& entry : entries_) {
     const auto keyframe =

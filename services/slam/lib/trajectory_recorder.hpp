@@ -3,17 +3,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/geometry/se3.hpp"
+#include "common/geometry/stamped_pose.hpp"
 #include "services/slam/lib/local_mapper.hpp"
 #include "services/slam/lib/tracker.hpp"
 
 namespace tsg {
-
-/// A camera pose at a time; T_world_camera as in TrackResult.
-struct StampedPose {
-  std::int64_t stamp_ns = 0;
-  SE3 T_world_camera;
-};
 
 /// Remembers every tracked frame relative to its reference keyframe, so that what bundle
 /// adjustment learns later corrects the frames before as well.
@@ -23,11 +17,10 @@ class TrajectoryRecorder {
   void record(const TrackResult& result);
 
   /// Poses as they were when each frame was tracked.
-  [[nodiscard]] std::vector<StampedPose> live() const;
+  [[nodiscard]] Trajectory live() const;
   /// Poses by where the keyframes are now. `keyframes` must be sorted by id and hold every
   /// reference (LocalMapper::keyframe_poses()); frames whose reference is not there are left out.
-  [[nodiscard]] std::vector<StampedPose> corrected(
-      const std::vector<KeyframePose>& keyframes) const;
+  [[nodiscard]] Trajectory corrected(const std::vector<KeyframePose>& keyframes) const;
 
   [[nodiscard]] std::size_t tracked() const { return entries_.size(); }
   [[nodiscard]] std::size_t lost() const { return lost_; }  ///< after the first pose
