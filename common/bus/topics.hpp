@@ -3,6 +3,8 @@
 // The wiring list: every topic with its type, domain and quality of service, written once.
 // docs/architecture.md has the picture. Types: idl/tsg (ours), idl/ros2 (standard ROS 2 layouts).
 
+#include <tuple>
+
 #include "common/bus/messages.hpp"
 #include "common/bus/qos.hpp"
 
@@ -97,5 +99,22 @@ struct Diagnostics {
   static constexpr const char* kName = "rt/diagnostics";
   static constexpr Qos kQos{};
 };
+
+/// All of them, for what handles any topic by its name.
+using All = std::tuple<Rgbd,
+                       Instances,
+                       Keyframe,
+                       TrackingStatus,
+                       KeyframePoses,
+                       Command,
+                       Reply,
+                       Pose,
+                       Odometry,
+                       Transforms,
+                       Octomap,
+                       Objects,
+                       Cloud,
+                       Grid,
+                       Diagnostics>;
 
 }  // namespace tsg::topics
