@@ -1,0 +1,75 @@
+#include "services/slam/config.hpp"
+
+namespace tsg {
+namespace {
+
+void read_features(ConfigReader& reader, FeatureConfig& config) {
+  reader.read("features.max_features", config.max_features);
+  reader.read("features.levels", config.levels);
+  reader.read("features.scale_factor", config.scale_factor);
+  reader.read("features.fast_threshold", config.fast_threshold);
+  reader.read("features.min_fast_threshold", config.min_fast_threshold);
+  reader.read("features.min_depth_m", config.min_depth_m);
+  reader.read("features.max_depth_m", config.max_depth_m);
+  reader.read("features.inverse_depth_sigma", config.inverse_depth_sigma);
+}
+
+void read_dynamic_filter(ConfigReader& reader, DynamicFilterConfig& config) {
+  reader.read("dynamic_filter.dynamic_classes", config.dynamic_classes);
+  reader.read("dynamic_filter.potentially_dynamic_classes", config.potentially_dynamic_classes);
+  reader.read("dynamic_filter.min_score", config.min_score);
+  reader.read("dynamic_filter.dilation_px", config.dilation_px);
+  reader.read("dynamic_filter.max_speed_mps", config.max_speed_mps);
+  reader.read("dynamic_filter.depth_tolerance_m", config.depth_tolerance_m);
+  reader.read("dynamic_filter.max_mask_age_frames", config.max_mask_age_frames);
+}
+
+void read_tracker(ConfigReader& reader, TrackerConfig& config) {
+  reader.read("tracker.min_features_to_start", config.min_features_to_start);
+  reader.read("tracker.min_inliers", config.min_inliers);
+  reader.read("tracker.pixel_sigma", config.pixel_sigma);
+  reader.read("tracker.keyframe_overlap", config.keyframe_overlap);
+  reader.read("tracker.keyframe_view_change", config.keyframe_view_change);
+  reader.read("tracker.standing_still", config.standing_still);
+}
+
+void read_mapper(ConfigReader& reader, MapperConfig& config) {
+  reader.read("mapper.window_keyframes", config.window_keyframes);
+  reader.read("mapper.fixed_keyframes", config.fixed_keyframes);
+  reader.read("mapper.snapshot_keyframes", config.snapshot_keyframes);
+  reader.read("mapper.snapshot_points", config.snapshot_points);
+  reader.read("mapper.min_shared_points", config.min_shared_points);
+  reader.read("mapper.max_iterations", config.max_iterations);
+  reader.read("mapper.time_budget_s", config.time_budget_s);
+  reader.read("mapper.redundant_share", config.redundant_share);
+}
+
+}  // namespace
+
+std::vector<std::string> SlamNodeConfig::problems() const {
+  std::vector<std::string> found = core.problems();
+  if (!(lockstep_mask_wait_s > 0.0)) found.emplace_back("lockstep_mask_wait_s must be > 0");
+  if (!(keyframe_mask_wait_s > 0.0)) found.emplace_back("keyframe_mask_wait_s must be > 0");
+  if (lockstep && core.mapper.time_budget_s > 0.0) {
+    found.emplace_back(
+        "mapper.time_budget_s must be 0 with lockstep, which promises equal results");
+  }
+  return found;
+}
+
+SlamNodeConfig load_slam_config(const ConfigFile& file) {
+  SlamNodeConfig config;
+  ConfigReader reader(file, "slam");
+  reader.read("lockstep", config.lockstep);
+  reader.read("expect_masks", config.expect_masks);
+  reader.read("lockstep_mask_wait_s", config.lockstep_mask_wait_s);
+  reader.read("keyframe_mask_wait_s", config.keyframe_mask_wait_s);
+  read_features(reader, config.core.features);
+  read_dynamic_filter(reader, config.core.dynamic_filter);
+  read_tracker(reader, config.core.tracker);
+  read_mapper(reader, config.core.mapper);
+  reader.finish(config.problems());
+  return config;
+}
+
+}  // namespace tsg

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "common/core/bounded_queue.hpp"
+#include "services/slam/lib/local_mapper.hpp"
+
+namespace tsg {
+
+enum class MappingMode {
+  kConcurrent,   ///< in a thread of its own, beside tracking
+  kSynchronous,  ///< in the caller's thread, done when the call returns: reproducible
+};
+
+/// Owns the map and the thread that works on it. All calls come from the tracking thread.
+class MappingLoop {
+ public:
+  MappingLoop(const SlamConfig& config, const CameraModel& camera, MappingMode mode);
+
+  /// The newest local map; never null.
+  [[nodiscard]] std::shared_ptr<const LocalMapSnapshot> snapshot() const {
+    return snapshot_.load();
+  }
+
+  void insert(KeyframeCandidate&& candidate);
+  void remove_points(std::vector<PointId> points);
+  /// Copies the mask.
+  void apply_mask(const InstanceSegmentation& mask);
+
+  /// Every keyframe's pose once all that was asked before is done.
+  [[nodiscard]] std::vector<KeyframePose> keyframe_poses();
+
+ private:
+  using Task = std::function<void(LocalMapper&, const std::stop_token&)>;
+
+  void post(Task task);
+  void carry_out(const Task& task, const std::stop_token& stop);
+  void work(const std::stop_token& stop);
+
+  LocalMapper mapper_;  // owned by worker_ while there is one
+  std::atomic<std::shared_ptr<const LocalMapSnapshot>> snapshot_;
+  // Nothing may be lost: a map without its keyframe would no longer fit what tracking refers to.
+  BoundedQueue<Task> tasks_{kMaxTasks, WhenFull::kBlock};
+  std::jthread worker_;
+
+  static constexpr std::size_t kMaxTasks = 64;  // several seconds of keyframes
+};
+
+}  // namespace tsg

@@ -1,0 +1,75 @@
+#include "services/slam/pose_publisher.hpp"
+
+#include <array>
+
+#include "common/bus/convert.hpp"
+
+namespace tsg {
+namespace {
+
+// The wire types want mutable pointers, which the bus only reads (Publisher::publish()).
+// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
+char map_frame[] = "map";
+char odom_frame[] = "odom";
+char camera_frame[] = "camera";
+// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+
+geometry_msgs_msg_dds__Vector3_ to_ros_vector(const Eigen::Vector3d& vector) {
+  return {.x = vector.x(), .y = vector.y(), .z = vector.z()};
+}
+
+geometry_msgs_msg_dds__TransformStamped_ to_ros_stamped(std::int64_t stamp_ns,
+                                                        char* frame,
+                                                        char* child_frame,
+                                                        const SE3& T_frame_child) {
+  geometry_msgs_msg_dds__TransformStamped_ message{};
+  message.header.stamp = to_ros_time(stamp_ns);
+  message.header.frame_id = frame;
+  message.child_frame_id = child_frame;
+  message.transform = to_ros_transform(T_frame_child);
+  return message;
+}
+
+}  // namespace
+
+PosePublisher::PosePublisher(Bus& bus) : pose_(bus), odometry_(bus), transforms_(bus) {}
+
+Expected<void> PosePublisher::publish(const OdometryPose& pose) {
+  return publish_pose(pose).and_then([&] { return publish_odometry(pose); }).and_then([&] {
+    return publish_transforms(pose);
+  });
+}
+
+Expected<void> PosePublisher::publish_pose(const OdometryPose& pose) {
+  topics::Pose::Message message{};
+  message.header.stamp = to_ros_time(pose.stamp_ns);
+  message.header.frame_id = map_frame;
+  message.pose = to_ros_pose(pose.T_map_camera);
+  return pose_.publish(message);
+}
+
+Expected<void> PosePublisher::publish_odometry(const OdometryPose& pose) {
+  topics::Odometry::Message message{};
+  message.header.stamp = to_ros_time(pose.stamp_ns);
+  message.header.frame_id = odom_frame;
+  message.child_frame_id = camera_frame;
+  message.pose.pose = to_ros_pose(pose.T_odom_camera);
+  if (pose.twist_camera) {
+    message.twist.twist.linear = to_ros_vector(pose.twist_camera->head<3>());
+    message.twist.twist.angular = to_ros_vector(pose.twist_camera->tail<3>());
+  }
+  return odometry_.publish(message);
+}
+
+Expected<void> PosePublisher::publish_transforms(const OdometryPose& pose) {
+  std::array transforms = {
+      to_ros_stamped(pose.stamp_ns, map_frame, odom_frame, pose.T_map_odom),
+      to_ros_stamped(pose.stamp_ns, odom_frame, camera_frame, pose.T_odom_camera)};
+  topics::Transforms::Message message{};
+  message.transforms._buffer = transforms.data();
+  message.transforms._length = transforms.size();
+  message.transforms._maximum = transforms.size();
+  return transforms_.publish(message);
+}
+
+}  // namespace tsg
