@@ -1,0 +1,204 @@
+#include "services/tsgctl/plot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+#include "common/app/child_process.hpp"
+#include "common/core/atomic_file.hpp"
+#include "common/dataset/text_file.hpp"
+
+namespace tsg {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Indices of the horizontal and the vertical axis of the picture.
+struct Axes {
+  int horizontal = 0;
+  int vertical = 1;
+};
+
+constexpr std::array<const char*, 3> kAxisNames{"x", "y", "z"};
+
+/// The part of the truth between the first and the last pose of the estimate.
+Trajectory covered_truth(const TrajectoryPlot& plot) {
+  const std::int64_t from = plot.error.matched.front().stamp_ns - kDefaultMaxDifferenceNs;
+  const std::int64_t to = plot.error.matched.back().stamp_ns + kDefaultMaxDifferenceNs;
+  Trajectory covered;
+  std::copy_if(
+      plot.truth.begin(), plot.truth.end(), std::back_inserter(covered),
+      [&](const StampedPose& pose) { return from <= pose.stamp_ns && pose.stamp_ns <= to; });
+  return covered;
+}
+
+Axes widest_axes(const std::vector<MatchedPose>& matched) {
+  Eigen::Vector3d low = matched.front().T_world_truth.translation();
+  Eigen::Vector3d high = low;
+  for (const MatchedPose& pose : matched) {
+    low = low.cwiseMin(pose.T_world_truth.translation());
+    high = high.cwiseMax(pose.T_world_truth.translation());
+  }
+  int flattest = 0;
+  (high - low).minCoeff(&flattest);
+  return {flattest == 0 ? 1 : 0, flattest == 2 ? 1 : 2};
+}
+
+void write_point(std::ostream& script, const Eigen::Vector3d& p_world, const Axes& axes) {
+  script << p_world[axes.horizontal] << ' ' << p_world[axes.vertical];
+}
+
+void write_truth(std::ostream& script, const Trajectory& truth, const Axes& axes) {
+  script << "$truth << EOD\n";
+  for (const StampedPose& pose : truth) {
+    write_point(script, pose.T_world_camera.translation(), axes);
+    script << '\n';
+  }
+  script << "EOD\n";
+}
+
+/// The longest time between two poses that still counts as tracked through.
+std::int64_t longest_step_ns(const std::vector<MatchedPose>& matched) {
+  std::vector<std::int64_t> steps;
+  for (std::size_t i = 1; i < matched.size(); ++i) {
+    steps.push_back(matched[i].stamp_ns - matched[i - 1].stamp_ns);
+  }
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                   steps.end());
+  return 5 * steps[steps.size() / 2];
+}
+
+/// Columns: place, error in millimetres. A blank line, where tracking was lost, ends a line.
+void write_estimate(std::ostream& script, const AbsoluteError& error, const Axes& axes) {
+  const std::int64_t longest_ns = longest_step_ns(error.matched);
+  script << "$estimate << EOD\n";
+  for (std::size_t i = 0; i < error.matched.size(); ++i) {
+    const MatchedPose& pose = error.matched[i];
+    if (i > 0 && pose.stamp_ns - error.matched[i - 1].stamp_ns > longest_ns) script << '\n';
+    write_point(script, error.T_world_estimate * pose.T_estimate_camera.translation(), axes);
+    script << ' ' << 1000.0 * error.errors_m[i] << '\n';
+  }
+  script << "EOD\n";
+}
+
+void write_start(std::ostream& script, const AbsoluteError& error, const Axes& axes) {
+  script << "$start << EOD\n";
+  write_point(script,
+              error.T_world_estimate * error.matched.front().T_estimate_camera.translation(), axes);
+  script << "\nEOD\n";
+}
+
+/// Text for a gnuplot string in single quotes.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char character : text) {
+    if (character == '\'') result += '\'';
+    if (character != '\n') result += character;
+  }
+  return result + "'";
+}
+
+std::string subtitle(const Summary& error_m) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << "ATE RMSE " << 1000.0 * error_m.rmse
+       << " mm, median " << 1000.0 * error_m.median << " mm, max " << 1000.0 * error_m.max
+       << " mm over " << error_m.count << " poses";
+  return text.str();
+}
+
+void write_style(std::ostream& script, const TrajectoryPlot& plot, const Axes& axes) {
+  // The scale of colour ends where the few worst poses would take all contrast from the others.
+  const double top_mm = std::max(1000.0 * plot.error.translation_m.p99, 1e-3);
+  script << "set title " << quoted(plot.title) << " . \"\\n\" . "
+         << quoted(subtitle(plot.error.translation_m)) << " noenhanced font ',15'\n"
+         << "set xlabel '" << kAxisNames.at(static_cast<std::size_t>(axes.horizontal)) << " [m]'\n"
+         << "set ylabel '" << kAxisNames.at(static_cast<std::size_t>(axes.vertical)) << " [m]'\n"
+         << "set cblabel 'position error [mm]'\n"
+         << "set cbrange [0:" << top_mm << "]\n"
+         << "set palette defined (0 '#2c7bb6', 0.35 '#00a6ca', 0.55 '#90c987', 0.75 '#f9a03f', "
+            "1 '#d7191c')\n"
+         << "set size ratio -1\nset offsets graph 0.06, graph 0.06, graph 0.06, graph 0.06\n"
+         << "set grid lc rgb '#e4e4e4' lw 1\nset border lc rgb '#606060'\nset tics nomirror\n"
+         << "set key outside bottom center horizontal samplen 3\n";
+}
+
+}  // namespace
+
+std::string plot_script(const TrajectoryPlot& plot, const fs::path& png) {
+  const Axes axes = widest_axes(plot.error.matched);
+  std::ostringstream script;
+  script << std::setprecision(9) << "set encoding utf8\n"
+         << "set terminal pngcairo size 1200,900 font 'sans,13' background '#ffffff'\n"
+         << "set output " << quoted(png.string()) << '\n';
+  write_truth(script, covered_truth(plot), axes);
+  write_estimate(script, plot.error, axes);
+  write_start(script, plot.error, axes);
+  write_style(script, plot, axes);
+  script << "plot $truth using 1:2 with lines lw 5 lc rgb '#b8b8b8' title 'ground truth', "
+            "$estimate using 1:2:3 with lines lw 2.5 lc palette title 'estimate, aligned', "
+            "$start using 1:2 with points pt 7 ps 1.8 lc rgb '#202020' title 'start'\n";
+  return script.str();
+}
+
+namespace {
+
+/// A folder that goes away with this object.
+class ScratchFolder {
+ public:
+  ScratchFolder() : path_((fs::temp_directory_path() / "tsgctl_plot_XXXXXX").string()) {
+    if (::mkdtemp(path_.data()) == nullptr) path_.clear();
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ScratchFolder(ScratchFolder&&) = delete;
+  ScratchFolder& operator=(ScratchFolder&&) = delete;
+
+  [[nodiscard]] fs::path path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+Expected<void> run_gnuplot(const fs::path& script, const fs::path& log) {
+  auto gnuplot = ChildProcess::spawn(
+      {.program = "gnuplot", .arguments = {script.string()}, .output_file = log});
+  if (!gnuplot) {
+    return make_error(ExitCode::kUnavailable,
+                      "plots need gnuplot, which is not installed; apt-get install gnuplot-nox");
+  }
+  const auto& end = gnuplot->wait(std::chrono::seconds(60));
+  if (end && end->is_success()) return {};
+  const auto said = read_text_file(log, "");
+  return make_error(ExitCode::kUnavailable,
+                    "gnuplot failed: " + (end ? end->describe() : "no end after 60 s") + ": " +
+                        said.value_or("") + "; reinstall gnuplot-nox");
+}
+
+}  // namespace
+
+Expected<void> plot_trajectory(const TrajectoryPlot& plot, const fs::path& png) {
+  const ScratchFolder scratch;
+  if (scratch.path().empty()) {
+    return make_error(ExitCode::kCannotWrite, "cannot make a folder in " +
+                                                  fs::temp_directory_path().string() +
+                                                  "; free some disk space or set TMPDIR");
+  }
+  const fs::path picture = scratch.path() / "plot.png";
+  const fs::path script = scratch.path() / "plot.gp";
+  return write_file_atomically(script, plot_script(plot, picture))
+      .and_then([&] { return run_gnuplot(script, scratch.path() / "gnuplot.log"); })
+      .and_then([&] { return read_text_file(picture, "reinstall gnuplot-nox"); })
+      .and_then([&](const std::string& bytes) { return write_file_atomically(png, bytes); });
+}
+
+}  // namespace tsg
