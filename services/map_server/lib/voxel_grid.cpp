@@ -1,0 +1,114 @@
+#include "services/map_server/lib/voxel_grid.hpp"
+
+#include <cmath>
+
+namespace tsg {
+namespace {
+
+constexpr int kBitsPerAxis = 21;
+constexpr std::int64_t kOffset = std::int64_t{1} << (kBitsPerAxis - 1);
+constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kBitsPerAxis) - 1;
+constexpr std::size_t kFirstSlots = 1024;
+
+/// Finaliser of MurmurHash3: neighbouring cells land far apart.
+std::size_t hash(std::uint64_t key) {
+  key ^= key >> 33U;
+  key *= 0xff51afd7ed558ccdULL;
+  key ^= key >> 33U;
+  return static_cast<std::size_t>(key);
+}
+
+std::uint8_t to_channel(float value) { return static_cast<std::uint8_t>(std::lround(value)); }
+
+}  // namespace
+
+void ClassVote::add(ClassId id, std::uint32_t weight) {
+  if (id == kNotSegmentedClass) return;
+  if (id == winner_) {
+    lead_ += weight;
+  } else if (weight > lead_) {
+    winner_ = id;
+    lead_ = weight - lead_;
+  } else {
+    lead_ -= weight;
+  }
+}
+
+VoxelGrid::VoxelGrid(double voxel_m) : cells_per_metre_(1.0 / voxel_m), slots_(kFirstSlots, 0) {}
+
+void VoxelGrid::add(const CloudPoint& point) {
+  Cell& cell = cell_with(key_of(point.position));
+  cell.weight += point.weight;
+  const float share = static_cast<float>(point.weight) / static_cast<float>(cell.weight);
+  const Eigen::Vector3f colour(point.colour.r, point.colour.g, point.colour.b);
+  cell.position += share * (point.position - cell.position);
+  cell.colour += share * (colour - cell.colour);
+  cell.vote.add(point.class_id, point.weight);
+}
+
+void VoxelGrid::clear() {
+  cells_.clear();
+  slots_.assign(slots_.size(), 0);
+  last_ = 0;
+}
+
+Voxel VoxelGrid::voxel(std::size_t index) const {
+  const Cell& cell = cells_[index];
+  const auto axis = [&cell](int number) {
+    const auto bits = (cell.key >> (number * kBitsPerAxis)) & kAxisMask;
+    return static_cast<int>(static_cast<std::int64_t>(bits) - kOffset);
+  };
+  const Rgb colour{to_channel(cell.colour.x()), to_channel(cell.colour.y()),
+                   to_channel(cell.colour.z())};
+  return {{axis(0), axis(1), axis(2)}, {cell.position, colour, cell.vote.winner(), cell.weight}};
+}
+
+Cloud VoxelGrid::to_cloud() const {
+  Cloud cloud;
+  cloud.reserve(size());
+  for (std::size_t i = 0; i < size(); ++i) cloud.push_back(voxel(i).mean);
+  return cloud;
+}
+
+std::uint64_t VoxelGrid::key_of(const Eigen::Vector3f& position) const {
+  std::uint64_t key = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cell = std::floor(cells_per_metre_ * static_cast<double>(position[axis]));
+    const auto bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(cell) + kOffset);
+    key |= (bits & kAxisMask) << static_cast<unsigned>(axis * kBitsPerAxis);
+  }
+  return key;
+}
+
+VoxelGrid::Cell& VoxelGrid::cell_with(std::uint64_t key) {
+  if (last_ < cells_.size() && cells_[last_].key == key) return cells_[last_];
+  if (2 * (cells_.size() + 1) > slots_.size()) grow();
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash(key) & mask;
+  while (slots_[slot] != 0 && cells_[slots_[slot] - 1].key != key) slot = (slot + 1) & mask;
+  if (slots_[slot] == 0) {
+    cells_.push_back({});
+    cells_.back().key = key;
+    slots_[slot] = static_cast<std::uint32_t>(cells_.size());
+  }
+  last_ = slots_[slot] - 1;
+  return cells_[last_];
+}
+
+void VoxelGrid::grow() {
+  slots_.assign(slots_.size() * 2, 0);
+  const std::size_t mask = slots_.size() - 1;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    std::size_t slot = hash(cells_[i].key) & mask;
+    while (slots_[slot] != 0) slot = (slot + 1) & mask;
+    slots_[slot] = static_cast<std::uint32_t>(i + 1);
+  }
+}
+
+Cloud voxel_filter(const Cloud& cloud, double voxel_m) {
+  VoxelGrid grid(voxel_m);
+  for (const CloudPoint& point : cloud) grid.add(point);
+  return grid.to_cloud();
+}
+
+}  // namespace tsg
