@@ -1,0 +1,98 @@
+#include "services/segmentation/lib/letterbox.hpp"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace tsg {
+namespace {
+
+cv::Mat noise_image(cv::Size size, int seed) {
+  cv::RNG random(static_cast<std::uint64_t>(seed));
+  cv::Mat image(size, CV_8UC3);
+  random.fill(image, cv::RNG::UNIFORM, 0, 256);
+  return image;
+}
+
+float tensor_at(const std::vector<float>& tensor, cv::Size size, int channel, cv::Point at) {
+  return tensor[static_cast<std::size_t>((channel * size.height + at.y) * size.width + at.x)];
+}
+
+std::vector<float> tensor_of(const cv::Mat& bgr, const Letterbox& letterbox) {
+  std::vector<float> tensor(static_cast<std::size_t>(3 * letterbox.input_size.area()), -1.0F);
+  InputTensorWriter(letterbox).write(bgr, tensor);
+  return tensor;
+}
+
+/// The same conversion in the steps of OpenCV.
+cv::Mat reference_input(const cv::Mat& bgr, const Letterbox& letterbox) {
+  cv::Mat as_float;
+  bgr.convertTo(as_float, CV_32FC3);
+  cv::Mat resized;
+  cv::resize(as_float, resized, letterbox.image.size(), 0, 0, cv::INTER_LINEAR);
+  cv::Mat input(letterbox.input_size, CV_32FC3, cv::Scalar::all(114));
+  resized.copyTo(input(letterbox.image));
+  cv::cvtColor(input, input, cv::COLOR_BGR2RGB);
+  return input / 255.0;
+}
+
+void expect_equals_reference(cv::Size frame_size, cv::Size input_size) {
+  const Letterbox letterbox = make_letterbox(frame_size, input_size);
+  const cv::Mat image = noise_image(frame_size, 7);
+  const std::vector<float> tensor = tensor_of(image, letterbox);
+  const cv::Mat expected = reference_input(image, letterbox);
+  for (int y = 0; y < input_size.height; ++y) {
+    for (int x = 0; x < input_size.width; ++x) {
+      for (int channel = 0; channel < 3; ++channel) {
+        ASSERT_NEAR(tensor_at(tensor, input_size, channel, {x, y}),
+                    expected.at<cv::Vec3f>(y, x)[channel], 2e-4)
+            << "x " << x << " y " << y << " channel " << channel;
+      }
+    }
+  }
+}
+
+TEST(Letterbox, LeavesAFrameOfTheInputsSizeAsItIs) {
+  const Letterbox letterbox = make_letterbox({640, 480}, {640, 480});
+  EXPECT_EQ(letterbox.image, cv::Rect(0, 0, 640, 480));
+  EXPECT_EQ(letterbox.to_frame({10.0F, 20.0F, 30.0F, 40.0F}), cv::Rect2f(10, 20, 30, 40));
+}
+
+TEST(Letterbox, CentresAWideFrameBetweenBars) {
+  const Letterbox letterbox = make_letterbox({1280, 720}, {640, 640});
+  EXPECT_EQ(letterbox.image, cv::Rect(0, 140, 640, 360));
+}
+
+TEST(Letterbox, MapsBoxesBackToTheFrameAndCutsThemToIt) {
+  const Letterbox letterbox = make_letterbox({1280, 720}, {640, 640});
+  EXPECT_EQ(letterbox.to_frame({320.0F, 320.0F, 10.0F, 20.0F}), cv::Rect2f(640, 360, 20, 40));
+  EXPECT_EQ(letterbox.to_frame({-20.0F, 0.0F, 700.0F, 640.0F}), cv::Rect2f(0, 0, 1280, 720));
+}
+
+TEST(InputTensorWriter, TurnsPixelsToPlanesOfRedGreenAndBlue) {
+  const cv::Mat image(2, 2, CV_8UC3, cv::Scalar(255, 51, 0));  // BGR
+  const std::vector<float> tensor = tensor_of(image, make_letterbox({2, 2}, {2, 2}));
+  EXPECT_FLOAT_EQ(tensor_at(tensor, {2, 2}, 0, {1, 0}), 0.0F);
+  EXPECT_FLOAT_EQ(tensor_at(tensor, {2, 2}, 1, {0, 1}), 0.2F);
+  EXPECT_FLOAT_EQ(tensor_at(tensor, {2, 2}, 2, {1, 1}), 1.0F);
+}
+
+TEST(InputTensorWriter, EqualsResizingAndConvertingStepByStep) {
+  expect_equals_reference({64, 48}, {64, 48});   // as is
+  expect_equals_reference({64, 48}, {64, 64});   // bars above and below
+  expect_equals_reference({128, 72}, {64, 64});  // halved, with bars
+  expect_equals_reference({48, 64}, {64, 64});   // bars left and right
+  expect_equals_reference({50, 37}, {96, 64});   // enlarged by an odd factor
+  expect_equals_reference({101, 67}, {64, 32});  // shrunk by an odd factor
+}
+
+TEST(InputTensorWriter, ReadsAViewWithRowsFartherApartThanItsWidth) {
+  const cv::Mat large = noise_image({80, 60}, 3);
+  const cv::Mat view = large(cv::Rect(8, 6, 64, 48));
+  const Letterbox letterbox = make_letterbox({64, 48}, {64, 48});
+  EXPECT_EQ(tensor_of(view, letterbox), tensor_of(view.clone(), letterbox));
+}
+
+}  // namespace
+}  // namespace tsg

@@ -1,0 +1,188 @@
+#include "services/segmentation/lib/onnx_model.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include "services/segmentation/lib/onnx_runtime.hpp"
+
+#define ORT_API_MANUAL_INIT
+#include <onnxruntime_cxx_api.h>
+
+namespace tsg {
+
+namespace {
+
+/// A tensor whose memory is ours and stays where it is between runs.
+struct BoundTensor {
+  std::vector<float> values;
+  Ort::Value view{nullptr};
+};
+
+Ort::SessionOptions session_options(const OnnxModelConfig& config) {
+  Ort::SessionOptions options;
+  options.SetIntraOpNumThreads(config.threads);
+  options.SetInterOpNumThreads(1);
+  options.SetGraphOptimizationLevel(ORT_ENABLE_ALL);
+  // A waiting thread would otherwise spin on a core that tracking needs.
+  options.AddConfigEntry("session.intra_op.allow_spinning", "0");
+  // Weights stored as int8 are computed with as float32: as fast here, and the same result.
+  options.AddConfigEntry("session.disable_quant_qdq", "1");
+  return options;
+}
+
+TensorDescription describe(std::string name, const Ort::TypeInfo& type) {
+  TensorDescription tensor{.name = std::move(name), .shape = {}, .is_float32 = false};
+  if (type.GetONNXType() != ONNX_TYPE_TENSOR) return tensor;
+  const auto info = type.GetTensorTypeAndShapeInfo();
+  tensor.shape = info.GetShape();
+  tensor.is_float32 = info.GetElementType() == ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT;
+  return tensor;
+}
+
+ModelDescription describe(const Ort::Session& session) {
+  Ort::AllocatorWithDefaultOptions allocator;
+  ModelDescription model;
+  for (std::size_t i = 0; i < session.GetInputCount(); ++i) {
+    model.inputs.push_back(
+        describe(session.GetInputNameAllocated(i, allocator).get(), session.GetInputTypeInfo(i)));
+  }
+  for (std::size_t i = 0; i < session.GetOutputCount(); ++i) {
+    model.outputs.push_back(
+        describe(session.GetOutputNameAllocated(i, allocator).get(), session.GetOutputTypeInfo(i)));
+  }
+  const Ort::ModelMetadata metadata = session.GetModelMetadata();
+  for (const auto& key : metadata.GetCustomMetadataMapKeysAllocated(allocator)) {
+    const auto value = metadata.LookupCustomMetadataMapAllocated(key.get(), allocator);
+    if (value) model.metadata.emplace(key.get(), value.get());
+  }
+  return model;
+}
+
+tl::unexpected<Error> loading_failed(const std::string& file, const Ort::Exception& failure) {
+  switch (failure.GetOrtErrorCode()) {
+    case ORT_NO_SUCHFILE:
+      return make_error(ExitCode::kMissingInput,
+                        "cannot read the model " + file + ": " + failure.what());
+    case ORT_INVALID_PROTOBUF:
+      return make_error(ExitCode::kBadData, "the model " + file +
+                                                " is not an ONNX file or is damaged (" +
+                                                failure.what() + "); fetch or export it anew");
+    default:
+      return make_error(ExitCode::kUnsupportedModel,
+                        "ONNX Runtime cannot run the model " + file + ": " + failure.what() +
+                            "; export it anew with the operators of ONNX opset 13");
+  }
+}
+
+Expected<void> check_file(const std::string& file) {
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(file, failure)) {
+    return make_error(ExitCode::kMissingInput,
+                      "there is no model file " + file + ": set segmentation.model.file");
+  }
+  if (std::filesystem::file_size(file, failure) == 0) {
+    return make_error(ExitCode::kBadData,
+                      "the model " + file + " is empty; fetch or export it anew");
+  }
+  return {};
+}
+
+Expected<std::vector<BoundTensor>> allocate_all(const std::vector<TensorDescription>& tensors) {
+  std::vector<BoundTensor> bound;
+  for (const auto& tensor : tensors) {
+    const bool is_fixed = std::all_of(tensor.shape.begin(), tensor.shape.end(),
+                                      [](std::int64_t length) { return length > 0; });
+    if (!tensor.is_float32 || !is_fixed) {
+      return make_error(ExitCode::kUnsupportedModel,
+                        "the tensor " + tensor.to_string() + " of the model has no fixed shape");
+    }
+    const auto count = std::accumulate(tensor.shape.begin(), tensor.shape.end(), std::int64_t{1},
+                                       std::multiplies<>());
+    BoundTensor& added = bound.emplace_back();
+    added.values.resize(static_cast<std::size_t>(count));
+    const auto memory = Ort::MemoryInfo::CreateCpu(OrtDeviceAllocator, OrtMemTypeDefault);
+    added.view = Ort::Value::CreateTensor<float>(memory, added.values.data(), added.values.size(),
+                                                 tensor.shape.data(), tensor.shape.size());
+  }
+  return bound;
+}
+
+}  // namespace
+
+struct OnnxModel::Impl {
+  explicit Impl(const OnnxModelConfig& config)
+      // Failures come as exceptions, so that nothing is written to stderr behind our back.
+      : environment(ORT_LOGGING_LEVEL_FATAL, "tsg"),
+        session(environment, config.file.c_str(), session_options(config)),
+        description(describe(session)) {}
+
+  Ort::Env environment;
+  Ort::Session session;
+  ModelDescription description;
+  Ort::RunOptions run_options;
+  std::vector<BoundTensor> inputs;
+  std::vector<BoundTensor> outputs;
+};
+
+std::vector<std::string> OnnxModelConfig::problems() const {
+  std::vector<std::string> found;
+  if (threads < 1 || threads > 64) found.emplace_back("threads must be 1 to 64");
+  return found;
+}
+
+OnnxModel::OnnxModel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+OnnxModel::~OnnxModel() = default;
+OnnxModel::OnnxModel(OnnxModel&& other) noexcept = default;
+OnnxModel& OnnxModel::operator=(OnnxModel&& other) noexcept = default;
+
+Expected<OnnxModel> OnnxModel::load(const OnnxModelConfig& config) {
+  if (auto file = check_file(config.file); !file) return tl::unexpected(file.error());
+  if (auto runtime = load_onnx_runtime(config.runtime_library); !runtime) {
+    return tl::unexpected(runtime.error());
+  }
+  try {
+    return OnnxModel(std::make_unique<Impl>(config));
+  } catch (const Ort::Exception& failure) {
+    return loading_failed(config.file, failure);
+  }
+}
+
+const ModelDescription& OnnxModel::description() const { return impl_->description; }
+
+Expected<void> OnnxModel::allocate() {
+  auto inputs = allocate_all(impl_->description.inputs);
+  if (!inputs) return tl::unexpected(inputs.error());
+  auto outputs = allocate_all(impl_->description.outputs);
+  if (!outputs) return tl::unexpected(outputs.error());
+  impl_->inputs = std::move(*inputs);
+  impl_->outputs = std::move(*outputs);
+  return {};
+}
+
+std::span<float> OnnxModel::input(std::size_t index) { return impl_->inputs.at(index).values; }
+
+std::span<const float> OnnxModel::output(std::size_t index) const {
+  return impl_->outputs.at(index).values;
+}
+
+Expected<void> OnnxModel::run() {
+  try {
+    Ort::IoBinding binding(impl_->session);
+    for (std::size_t i = 0; i < impl_->inputs.size(); ++i) {
+      binding.BindInput(impl_->description.inputs[i].name.c_str(), impl_->inputs[i].view);
+    }
+    for (std::size_t i = 0; i < impl_->outputs.size(); ++i) {
+      binding.BindOutput(impl_->description.outputs[i].name.c_str(), impl_->outputs[i].view);
+    }
+    impl_->session.Run(impl_->run_options, binding);
+    return {};
+  } catch (const Ort::Exception& failure) {
+    return make_error(ExitCode::kFailure, std::string("the network failed: ") + failure.what());
+  }
+}
+
+void OnnxModel::cancel() { impl_->run_options.SetTerminate(); }
+
+}  // namespace tsg

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/core/error.hpp"
+#include "services/segmentation/lib/model_description.hpp"
+
+namespace tsg {
+
+struct OnnxModelConfig {
+  std::string file = {};             // the .onnx file
+  std::string runtime_library = {};  // libonnxruntime.so; empty: where it was found at build time
+  int threads = 2;                   // on two cores: the network takes 0.6 x the time of one thread
+
+  [[nodiscard]] std::vector<std::string> problems() const;
+};
+
+/// A network in ONNX Runtime, which is loaded when the first model is. The only place that calls
+/// the runtime; its exceptions end here. One owner; cancel() may come from any thread.
+class OnnxModel {
+ public:
+  /// kMissingInput (no such file), kBadData (not an ONNX file or a damaged one), kUnsupportedModel
+  /// (a network that the runtime does not run) or kUnavailable (no runtime, or too old a one).
+  static Expected<OnnxModel> load(const OnnxModelConfig& config);
+
+  ~OnnxModel();
+  OnnxModel(OnnxModel&& other) noexcept;
+  OnnxModel& operator=(OnnxModel&& other) noexcept;
+  OnnxModel(const OnnxModel&) = delete;
+  OnnxModel& operator=(const OnnxModel&) = delete;
+
+  [[nodiscard]] const ModelDescription& description() const;
+
+  /// Makes the memory of all tensors. kUnsupportedModel where one is not float32 of fixed shape.
+  Expected<void> allocate();
+
+  /// The memory of a tensor; from allocate() on, as long as the model lives.
+  [[nodiscard]] std::span<float> input(std::size_t index);
+  [[nodiscard]] std::span<const float> output(std::size_t index) const;
+
+  /// Computes the outputs from the inputs. Fails where cancel() was called.
+  Expected<void> run();
+
+  /// Ends a running run() between two layers, and lets no other begin.
+  void cancel();
+
+ private:
+  struct Impl;
+  explicit OnnxModel(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tsg

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <opencv2/core/types.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/core/error.hpp"
+#include "services/segmentation/lib/model_description.hpp"
+
+namespace tsg {
+
+/// A YOLOv8/11-seg network as its exporter lays it out:
+///   input   [1, 3, H, W]           RGB, 0..1
+///   first   [1, 4 + C + M, A]      per anchor: centre x, centre y, width, height (input pixels),
+///                                  C class scores (0..1), M mask coefficients
+///   second  [1, M, H / 4, W / 4]   mask prototypes
+/// with the C class names in the metadata key `names`.
+struct YoloSegLayout {
+  cv::Size input_size;
+  cv::Size prototype_size;
+  int anchors = 0;
+  int coefficients = 0;
+  std::vector<std::string> class_names;
+
+  [[nodiscard]] int classes() const { return static_cast<int>(class_names.size()); }
+};
+
+/// The layout of `model`; kUnsupportedModel, saying what differs and how to export, where it is not
+/// that of a YOLO segmentation network.
+[[nodiscard]] Expected<YoloSegLayout> yolo_seg_layout(const ModelDescription& model);
+
+/// Reads class names as exporters write them, a Python dictionary: {0: 'person', 1: "tv"}, with
+/// the keys 0, 1, 2 ... in this order. kUnsupportedModel where it is not.
+[[nodiscard]] Expected<std::vector<std::string>> parse_class_names(std::string_view dictionary);
+
+}  // namespace tsg

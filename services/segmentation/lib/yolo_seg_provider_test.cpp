@@ -1,0 +1,160 @@
+#include "services/segmentation/lib/yolo_seg_provider.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/support/shared_data.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tests/support/tiny_yolo_seg.hpp"
+
+namespace tsg {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::OnnxWriter;
+using testing_support::TempFolder;
+using testing_support::TinyYoloSeg;
+
+RgbdFrame frame_of(const cv::Mat& colour) {
+  return {.seq = 17, .stamp_ns = 42, .camera = {}, .colour = colour, .depth = {}};
+}
+
+Expected<std::unique_ptr<SegmentationProvider>> make_tiny(const TempFolder& folder,
+                                                          const TinyYoloSeg& network) {
+  return YoloSegProvider::make(
+      {.model = {.file = folder.write("tiny.onnx", network.bytes())}, .decoder = {}});
+}
+
+TEST(YoloSegProvider, AnswersWithTheFramesSeqStampAndSize) {
+  const TempFolder folder;
+  auto provider = make_tiny(folder, {});
+  ASSERT_TRUE(provider.has_value()) << provider.error().message;
+  EXPECT_EQ((*provider)->name(), "tiny.onnx");
+  for (const cv::Size size : {cv::Size(64, 32), cv::Size(640, 320), cv::Size(128, 64)}) {
+    const cv::Mat colour(size, CV_8UC3, cv::Scalar::all(0));
+    const auto result = (*provider)->segment(frame_of(colour));
+    ASSERT_TRUE(result.has_value()) << result.error().message;
+    const InstanceSegmentation& found = result->segmentation;
+    EXPECT_EQ(found.frame_seq, 17U);
+    EXPECT_EQ(found.stamp_ns, 42);
+    ASSERT_EQ(found.instances.size(), 1U);
+    EXPECT_EQ(found.instances[0].class_name, "person");
+    EXPECT_EQ(found.labels.size(), size);
+    const double share = static_cast<double>(cv::countNonZero(found.labels)) / size.area();
+    EXPECT_NEAR(share, 0.5, 0.05);
+    EXPECT_GT(result->times.network_ns, 0);
+  }
+}
+
+TEST(YoloSegProvider, WithholdsTheMaskWhereTheNetworkGivesNaN) {
+  const TempFolder folder;
+  auto provider = make_tiny(folder, {.score = std::numeric_limits<float>::quiet_NaN()});
+  ASSERT_TRUE(provider.has_value()) << provider.error().message;
+  const cv::Mat colour(32, 64, CV_8UC3, cv::Scalar::all(0));
+  const auto result = (*provider)->segment(frame_of(colour));
+  ASSERT_FALSE(result.has_value());
+  EXPECT_EQ(result.error().code, ExitCode::kInvalidNumber);
+}
+
+TEST(YoloSegProvider, NamesTheFileOfANetworkOfAnotherLayout) {
+  OnnxWriter classifier;
+  classifier.add_input("image", {1, 3, 32, 64});
+  classifier.add_output("classes", {1, 3, 32, 64});
+  classifier.add_node("Identity", {"image"}, "classes");
+  const TempFolder folder;
+  const auto provider = YoloSegProvider::make(
+      {.model = {.file = folder.write("classifier.onnx", classifier.bytes())}, .decoder = {}});
+  ASSERT_FALSE(provider.has_value());
+  EXPECT_EQ(provider.error().code, ExitCode::kUnsupportedModel);
+  EXPECT_THAT(provider.error().message, HasSubstr("classifier.onnx: the outputs are not"));
+}
+
+// On a real network and real images, against what its own makers' tools find.
+class YoloV8n : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(model_file()) || !std::filesystem::exists(frames_folder())) {
+      GTEST_SKIP() << "no network or no frames in " << testing_support::shared_dir()
+                   << ": set TSG_SHARED_DIR";
+    }
+    std::ifstream file(model_file().replace_filename("expected.json"));
+    expected_ = nlohmann::json::parse(file);
+  }
+
+  static std::filesystem::path model_file() {
+    return testing_support::shared_dir() / "models/yolov8n-seg/model.onnx";
+  }
+  static std::filesystem::path frames_folder() {
+    return testing_support::shared_dir() / "data/tum_bits/fr3_walking_xyz_frames";
+  }
+
+  nlohmann::json expected_;
+};
+
+void expect_same_detection(const nlohmann::json& expected,
+                           const std::string& class_name,
+                           float score,
+                           const cv::Rect2f& box) {
+  EXPECT_EQ(class_name, expected["class"].get<std::string>());
+  EXPECT_NEAR(score, expected["score"].get<double>(), 1e-3);
+  const auto corners = expected["box_xyxy"].get<std::vector<double>>();
+  EXPECT_NEAR(box.x, corners[0], 0.5);
+  EXPECT_NEAR(box.y, corners[1], 0.5);
+  EXPECT_NEAR(box.br().x, corners[2], 0.5);
+  EXPECT_NEAR(box.br().y, corners[3], 0.5);
+}
+
+TEST_F(YoloV8n, FindsWhatItsMakersToolsFind) {
+  auto provider = YoloSegProvider::make({.model = {.file = model_file()}, .decoder = {}});
+  ASSERT_TRUE(provider.has_value()) << provider.error().message;
+  for (const auto& [name, frame] : expected_["frames"].items()) {
+    SCOPED_TRACE(name);
+    const cv::Mat colour = cv::imread(frames_folder() / name);
+    const auto result = (*provider)->segment(frame_of(colour));
+    ASSERT_TRUE(result.has_value()) << result.error().message;
+    const auto& instances = result->segmentation.instances;
+    ASSERT_EQ(instances.size(), frame["detections"].size());
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+      SCOPED_TRACE(i);
+      const auto& expected = frame["detections"][i];
+      expect_same_detection(expected, instances[i].class_name, instances[i].score,
+                            instances[i].box);
+    }
+  }
+}
+
+TEST_F(YoloV8n, GivesMasksOfTheSameArea) {
+  auto model = OnnxModel::load({.file = model_file()});
+  ASSERT_TRUE(model.has_value()) << model.error().message;
+  const auto layout = yolo_seg_layout(model->description());
+  ASSERT_TRUE(layout.has_value()) << layout.error().message;
+  ASSERT_TRUE(model->allocate().has_value());
+  const Letterbox letterbox = make_letterbox({640, 480}, layout->input_size);
+  for (const auto& [name, frame] : expected_["frames"].items()) {
+    SCOPED_TRACE(name);
+    InputTensorWriter(letterbox).write(cv::imread(frames_folder() / name), model->input(0));
+    ASSERT_TRUE(model->run().has_value());
+    const YoloSegTensors tensors{model->output(0), model->output(1)};
+    const auto detections = find_detections(*layout, {}, tensors);
+    ASSERT_TRUE(detections.has_value());
+    ASSERT_EQ(detections->size(), frame["detections"].size());
+    for (std::size_t i = 0; i < detections->size(); ++i) {
+      cv::Mat mask(480, 640, CV_8UC1, cv::Scalar(0));
+      paint_mask({*layout, tensors, letterbox}, (*detections)[i], 1, mask);
+      const double area = frame["detections"][i]["mask_area"].get<double>();
+      EXPECT_NEAR(cv::countNonZero(mask), area, std::max(0.005 * area, 5.0)) << "instance " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tsg
