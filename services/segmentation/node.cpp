@@ -1,0 +1,184 @@
+#include "services/segmentation/node.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stop_token>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "common/bus/convert.hpp"
+#include "common/core/time.hpp"
+#include "services/segmentation/lib/dataset_provider.hpp"
+
+namespace tsg {
+
+namespace {
+
+constexpr std::chrono::milliseconds kFrameWait{100};  // how long commands may lie unanswered
+constexpr std::chrono::milliseconds kFirstReaderWait{1000};
+constexpr std::chrono::milliseconds kNoWait{0};
+
+/// Lowers the priority of this thread and of all that it starts from now on.
+void lower_priority(int nice, Log& log) {
+  const int present = ::getpriority(PRIO_PROCESS, 0);
+  if (present >= nice) return;
+  if (::setpriority(PRIO_PROCESS, 0, nice) != 0) {
+    log.warn("priority not lowered", {{"why", std::generic_category().message(errno)}});
+  }
+}
+
+tl::unexpected<Error> not_set(const std::string& key, const std::string& provider) {
+  return make_error(ExitCode::kConfig, "segmentation." + key + " is not set, which provider '" +
+                                           provider + "' needs: set it in the configuration or " +
+                                           "with --set segmentation." + key + "=PATH");
+}
+
+Expected<std::unique_ptr<SegmentationProvider>> make_provider(const SegmentationConfig& config) {
+  if (config.provider == "dataset") {
+    if (config.dataset_folder.empty()) return not_set("dataset.folder", config.provider);
+    return DatasetProvider::make(config.dataset_folder);
+  }
+  if (config.network.model.file.empty()) return not_set("model.file", config.provider);
+  return YoloSegProvider::make(config.network);
+}
+
+template <std::size_t N>
+void copy_name(std::string_view name, char (&field)[N]) {
+  const std::size_t length = std::min(name.size(), N - 1);
+  std::fill(std::copy_n(name.data(), length, field), field + N, '\0');
+}
+
+std::string with_one_decimal(double value) {
+  std::array<char, 32> text{};
+  const int length = std::snprintf(text.data(), text.size(), "%.1f", value);
+  return {text.data(), static_cast<std::size_t>(length)};
+}
+
+}  // namespace
+
+SegmentationNode::SegmentationNode(const SegmentationConfig& config,
+                                   Bus& bus,
+                                   const ServiceContext& context)
+    : context_(context),
+      log_(context.log),
+      frames_(bus),
+      masks_(bus),
+      commands_(bus, "segmentation"),
+      diagnostics_(bus, "segmentation") {
+  lower_priority(config.nice, log_);
+  provider_ = value_or_throw(make_provider(config));
+  commands_.on("report", [this](const std::string&) -> Expected<std::string> { return report(); });
+}
+
+void SegmentationNode::run() {
+  const std::stop_callback cancel(context_.stop, [this] { provider_->cancel(); });
+  log_.info("masks from", {{"provider", provider_->name()}});
+  reported_at_ns_ = monotonic_ns();
+  context_.ready();
+  while (!context_.stop.stop_requested()) {
+    if (const auto message = frames_.take_latest(context_.stop, kFrameWait)) {
+      answer(*message);
+    } else {
+      settle_readers(0, kNoWait);
+    }
+    commands_.serve_pending();
+    if (diagnostics_.is_due()) publish_diagnostics();
+    context_.heartbeat();
+  }
+}
+
+void SegmentationNode::answer(const Sample<topics::Rgbd>& message) {
+  const std::int64_t published_ns = message->header.publish_monotonic_ns;
+  counters_.input_age_ms.add(to_milliseconds(monotonic_ns() - published_ns));
+  const auto result = segment(*message);
+  if (context_.stop.stop_requested()) return;  // cancelled: nobody waits for this mask any more
+  if (!result) {
+    withhold(*message, result.error());
+    return;
+  }
+  if (const auto published = publish(*result); !published) {
+    withhold(*message, published.error());
+    return;
+  }
+  counters_.add(*result);
+  counters_.latency_ms.add(to_milliseconds(monotonic_ns() - published_ns));
+}
+
+Expected<SegmentationResult> SegmentationNode::segment(const tsg_RgbdFrame& message) {
+  const auto frame = view_as_frame(message);
+  if (!frame) return tl::unexpected(frame.error());
+  return provider_->segment(*frame);
+}
+
+Expected<void> SegmentationNode::publish(const SegmentationResult& result) {
+  settle_readers(has_published_ ? 0 : 1, has_published_ ? kNoWait : kFirstReaderWait);
+  has_published_ = true;
+  auto loan = masks_.loan();
+  if (!loan) return tl::unexpected(loan.error());
+  tsg_InstanceMask& message = **loan;
+  if (auto filled = fill_message(result.segmentation, message); !filled) return filled;
+  copy_name(provider_->name(), message.model_name);
+  message.inference_ns = result.times.total_ns();
+  return masks_.publish(std::move(*loan));
+}
+
+void SegmentationNode::withhold(const tsg_RgbdFrame& message, const Error& why) {
+  ++counters_.failed;
+  log_.warn(
+      "mask withheld",
+      {{"seq", message.header.seq}, {"stamp_ns", message.header.stamp_ns}, {"why", why.message}});
+}
+
+/// What is published before shared memory knows its readers is lost to them, so whoever is new
+/// is waited for.
+void SegmentationNode::settle_readers(int at_least, std::chrono::milliseconds timeout) {
+  masks_.wait_for_subscribers(std::max(masks_.subscriber_count(), at_least), timeout,
+                              context_.stop);
+}
+
+void SegmentationNode::publish_diagnostics() {
+  const std::int64_t now_ns = monotonic_ns();
+  const double elapsed_s = to_seconds(now_ns - std::exchange(reported_at_ns_, now_ns));
+  const std::uint64_t frames = counters_.frames - reported_frames_;
+  const std::uint64_t failed = counters_.failed - reported_failed_;
+  reported_frames_ = counters_.frames;
+  reported_failed_ = counters_.failed;
+
+  Diagnostic diagnostic;
+  diagnostic.level = failed > 0 ? DiagnosticLevel::kWarn : DiagnosticLevel::kOk;
+  diagnostic.message = failed > 0   ? "masks withheld: see the log"
+                       : frames > 0 ? "segmenting"
+                                    : "waiting for frames";
+  const double rate_hz = elapsed_s > 0.0 ? static_cast<double>(frames) / elapsed_s : 0.0;
+  const Summary inference = counters_.total_ms.summary();
+  const Summary latency = counters_.latency_ms.summary();
+  diagnostic.values = {{"provider", provider_->name()},
+                       {"rate_hz", with_one_decimal(rate_hz)},
+                       {"frames", std::to_string(counters_.frames)},
+                       {"passed_over", std::to_string(frames_.passed_over() + frames_.missed())},
+                       {"failed", std::to_string(counters_.failed)},
+                       {"inference_p50_ms", with_one_decimal(inference.median)},
+                       {"inference_p99_ms", with_one_decimal(inference.p99)},
+                       {"latency_p50_ms", with_one_decimal(latency.median)},
+                       {"latency_p99_ms", with_one_decimal(latency.p99)}};
+  if (const auto published = diagnostics_.publish(diagnostic); !published) {
+    log_.warn("diagnostics not published", {{"why", published.error().message}});
+  }
+}
+
+std::string SegmentationNode::report() const {
+  nlohmann::json report = counters_.to_json();
+  report["provider"] = provider_->name();
+  // Both were left unread: the first by us, the second by the bus, whose queue holds four.
+  report["passed_over"] = frames_.passed_over() + frames_.missed();
+  return report.dump();
+}
+
+}  // namespace tsg
