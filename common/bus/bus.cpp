@@ -8,6 +8,8 @@
 namespace tsg {
 namespace {
 
+using QosPointer = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+
 constexpr int kHighestDomain = 230;  // ports of higher ones are out of range (DDSI 2.3, 9.6.1)
 
 bool is_domain_number(int number) { return number >= 0 && number <= kHighestDomain; }
@@ -47,7 +49,12 @@ BusContext::BusContext(const BusConfig& config)
 BusContext::Membership BusContext::join(const BusConfig& config, Domain domain) {
   auto joined = join_domain(config, domain);
   const int id = domain_id(config, domain);
-  DdsEntity participant(dds_create_participant(static_cast<dds_domainid_t>(id), nullptr, nullptr),
+  const QosPointer qos(dds_create_qos(), &dds_delete_qos);
+  const std::string transport = config.use_shared_memory ? kSaysSharedMemory : kSaysUdp;
+  if (domain == Domain::kSharedMemory) {
+    dds_qset_userdata(qos.get(), transport.data(), transport.size());
+  }
+  DdsEntity participant(dds_create_participant(static_cast<dds_domainid_t>(id), qos.get(), nullptr),
                         "a participant of DDS domain " + std::to_string(id));
   return {std::move(joined), std::move(participant)};
 }

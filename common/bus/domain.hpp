@@ -9,6 +9,11 @@
 
 namespace tsg {
 
+/// What a participant of the shared-memory domain tells the others in its user data
+/// (discovery.hpp).
+inline constexpr const char* kSaysSharedMemory = "tsg transport=shared_memory";
+inline constexpr const char* kSaysUdp = "tsg transport=udp";
+
 /// Number of the DDS domain that `domain` has in `config`.
 [[nodiscard]] int domain_id(const BusConfig& config, Domain domain);
 
