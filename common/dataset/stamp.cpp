@@ -83,8 +83,12 @@ std::string format_stamp(std::int64_t stamp_ns, StampDecimals decimals) {
   const std::int64_t units = (std::abs(stamp_ns) + unit_ns / 2) / unit_ns;
   const std::string fraction = std::to_string(units % units_per_second);
   const auto width = static_cast<std::size_t>(decimals);
-  return (stamp_ns < 0 && units > 0 ? "-" : "") + std::to_string(units / units_per_second) + "." +
-         std::string(width - fraction.size(), '0') + fraction;
+  std::string text = stamp_ns < 0 && units > 0 ? "-" : "";
+  text += std::to_string(units / units_per_second);
+  text += '.';
+  text.append(width - fraction.size(), '0');
+  text += fraction;
+  return text;
 }
 
 }  // namespace tsg
