@@ -21,10 +21,10 @@ struct PointSighting {
 struct KeyframeCandidate {
   KeyframeId id = 0;
   KeyframeId reference = 0;  ///< itself for the first
-  SE3 T_reference_camera;
+  SE3 T_reference_camera = {};
   std::shared_ptr<const Features> features;
-  std::vector<PointId> points;           ///< per feature: the map point it shows, or kNoPoint
-  std::vector<PointSighting> sightings;  ///< since the previous candidate
+  std::vector<PointId> points;                ///< per feature: the map point it shows, or kNoPoint
+  std::vector<PointSighting> sightings = {};  ///< since the previous candidate
 };
 
 }  // namespace tsg

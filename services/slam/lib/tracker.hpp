@@ -26,18 +26,18 @@ struct TrackResult {
   std::uint64_t seq = 0;
   std::int64_t stamp_ns = 0;
   TrackingState state = TrackingState::kInitialising;
-  std::optional<SE3> T_world_camera;  ///< set exactly when state == kTracking
-  KeyframeId reference = 0;           ///< the keyframe that shares most map points
-  SE3 T_reference_camera;             ///< the same pose, relative to it
-  bool relocalised = false;           ///< tracking again after it was lost
-  int matches = 0;                    ///< features matched to points of the map or the last frame
-  int inliers = 0;                    ///< of these, kept by the last pose optimisation
+  std::optional<SE3> T_world_camera = {};  ///< set exactly when state == kTracking
+  KeyframeId reference = 0;                ///< the keyframe that shares most map points
+  SE3 T_reference_camera = {};             ///< the same pose, relative to it
+  bool relocalised = false;                ///< tracking again after it was lost
+  int matches = 0;  ///< features matched to points of the map or the last frame
+  int inliers = 0;  ///< of these, kept by the last pose optimisation
   FeatureCounts features;
   int mask_age_frames = -1;
-  std::string reason;                         ///< why there is no pose; empty while tracking
-  std::optional<KeyframeCandidate> keyframe;  ///< for LocalMapper::insert
-  std::vector<PointId> dynamic_points;        ///< for LocalMapper::remove_points: found to lie
-                                              ///< on dynamic instances once their mask came
+  std::string reason = {};                         ///< why there is no pose; empty while tracking
+  std::optional<KeyframeCandidate> keyframe = {};  ///< for LocalMapper::insert
+  std::vector<PointId> dynamic_points = {};        ///< for LocalMapper::remove_points: found to lie
+                                                   ///< on dynamic instances once their mask came
 };
 
 /// What track() spends its time on; each may begin several times in one frame.

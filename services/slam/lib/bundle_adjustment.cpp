@@ -1,0 +1,86 @@
+#include "services/slam/lib/bundle_adjustment.hpp"
+
+#include <ceres/ceres.h>
+
+#include <cmath>
+#include <memory>
+
+#include "services/slam/lib/reprojection_cost.hpp"
+
+namespace tsg {
+namespace {
+
+constexpr double kFunctionTolerance = 1e-4;  // relative; further down is below the noise
+
+class StopCallback final : public ceres::IterationCallback {
+ public:
+  explicit StopCallback(const std::function<bool()>& must_stop) : must_stop_(must_stop) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
+    return must_stop_() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const std::function<bool()>& must_stop_;
+};
+
+ceres::Solver::Options make_options(const BundleLimits& limits) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.num_threads = 1;  // more would sum in another order from run to run
+  options.max_num_iterations = limits.max_iterations;
+  options.function_tolerance = kFunctionTolerance;
+  options.logging_type = ceres::SILENT;
+  if (limits.time_budget_s > 0.0) options.max_solver_time_in_seconds = limits.time_budget_s;
+  return options;
+}
+
+/// Hands the blocks to Ceres; points are eliminated first.
+void build(const ObservationModel& model,
+           BundleProblem& problem,
+           std::vector<PoseBlock>& poses,
+           ceres::Problem& solver_problem,
+           ceres::ParameterBlockOrdering& ordering) {
+  auto* manifold = new LeftTwistManifold;                     // owned by solver_problem
+  auto* loss = new ceres::HuberLoss(std::sqrt(kChiSquare3));  // owned by solver_problem
+  poses.reserve(problem.cameras.size());
+  for (const BundleProblem::Camera& camera : problem.cameras) {
+    poses.push_back(to_pose_block(camera.T_camera_world));
+    solver_problem.AddParameterBlock(poses.back().data(), 7, manifold);
+    if (camera.fixed) solver_problem.SetParameterBlockConstant(poses.back().data());
+    ordering.AddElementToGroup(poses.back().data(), 1);
+  }
+  for (Eigen::Vector3d& point : problem.points) {
+    solver_problem.AddParameterBlock(point.data(), 3);
+    ordering.AddElementToGroup(point.data(), 0);
+  }
+  for (const BundleProblem::Sighting& sighting : problem.sightings) {
+    solver_problem.AddResidualBlock(new ReprojectionCost(model, sighting.observation), loss,
+                                    poses[sighting.camera].data(),
+                                    problem.points[sighting.point].data());
+  }
+}
+
+}  // namespace
+
+BundleSummary adjust_bundle(const ObservationModel& model,
+                            const BundleLimits& limits,
+                            BundleProblem& problem) {
+  if (problem.sightings.empty()) return {};
+  std::vector<PoseBlock> poses;
+  ceres::Problem solver_problem;
+  ceres::Solver::Options options = make_options(limits);
+  options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  build(model, problem, poses, solver_problem, *options.linear_solver_ordering);
+  StopCallback stop_callback(limits.must_stop);
+  if (limits.must_stop) options.callbacks.push_back(&stop_callback);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &solver_problem, &summary);
+  if (!summary.IsSolutionUsable()) return {};
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (!problem.cameras[i].fixed) problem.cameras[i].T_camera_world = to_se3(poses[i].data());
+  }
+  return {summary.initial_cost, summary.final_cost, static_cast<int>(summary.iterations.size()) - 1,
+          true};
+}
+
+}  // namespace tsg

@@ -1,0 +1,103 @@
+#include "services/slam/lib/corner_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <opencv2/features2d.hpp>
+#include <tuple>
+
+namespace tsg {
+namespace {
+
+constexpr int kTile = 48;              // pixels; about as large as the gaps that hurt tracking
+constexpr int kBareCorners = 2;        // a tile with fewer is searched again with less contrast
+constexpr int kFastRadius = 3;         // FAST reads a circle of this radius
+constexpr double kMaxCellShare = 1.0;  // cells per wanted corner
+
+struct Ranked {
+  int rank;  ///< 0 = strongest of its cell
+  float response;
+  int y;
+  int x;
+  std::size_t index;
+};
+
+bool comes_first(const Ranked& a, const Ranked& b) {
+  return std::tie(a.rank, b.response, a.y, a.x) < std::tie(b.rank, a.response, b.y, b.x);
+}
+
+}  // namespace
+
+const std::vector<cv::KeyPoint>& CornerDetector::detect(const cv::Mat& image, int margin) {
+  corners_.clear();
+  const cv::Rect inside(margin, margin, image.cols - 2 * margin, image.rows - 2 * margin);
+  if (inside.width <= 0 || inside.height <= 0) return corners_;
+  // FAST leaves its radius free at the border of what it gets.
+  const int reach = std::min(margin, kFastRadius);
+  const cv::Rect searched(inside.x - reach, inside.y - reach, inside.width + 2 * reach,
+                          inside.height + 2 * reach);
+  cv::FAST(image(searched), corners_, threshold_, true);
+  const cv::Point2f offset(static_cast<float>(searched.x), static_cast<float>(searched.y));
+  for (cv::KeyPoint& corner : corners_) corner.pt += offset;
+  search_bare_tiles(image, inside);
+  return corners_;
+}
+
+void CornerDetector::search_bare_tiles(const cv::Mat& image, const cv::Rect& inside) {
+  const int columns = (inside.width + kTile - 1) / kTile;
+  const int rows = (inside.height + kTile - 1) / kTile;
+  tile_counts_.assign(static_cast<std::size_t>(columns * rows), 0);
+  for (const cv::KeyPoint& corner : corners_) {
+    const int column = (static_cast<int>(corner.pt.x) - inside.x) / kTile;
+    const int row = (static_cast<int>(corner.pt.y) - inside.y) / kTile;
+    ++tile_counts_[static_cast<std::size_t>(row * columns + column)];
+  }
+  for (int tile = 0; tile < columns * rows; ++tile) {
+    if (tile_counts_[static_cast<std::size_t>(tile)] >= kBareCorners) continue;
+    const cv::Rect core(inside.x + tile % columns * kTile, inside.y + tile / columns * kTile, kTile,
+                        kTile);
+    const cv::Rect searched =
+        cv::Rect(core.x - kFastRadius, core.y - kFastRadius, kTile + 2 * kFastRadius,
+                 kTile + 2 * kFastRadius) &
+        cv::Rect(inside.x - kFastRadius, inside.y - kFastRadius, inside.width + 2 * kFastRadius,
+                 inside.height + 2 * kFastRadius);
+    cv::FAST(image(searched), found_, min_threshold_, true);
+    for (cv::KeyPoint& corner : found_) {
+      if (corner.response >= static_cast<float>(threshold_)) continue;  // known already
+      corner.pt.x += static_cast<float>(searched.x);
+      corner.pt.y += static_cast<float>(searched.y);
+      corners_.push_back(corner);
+    }
+  }
+}
+
+void keep_spread(std::vector<cv::KeyPoint>& corners, const cv::Size& size, int wanted) {
+  if (static_cast<int>(corners.size()) <= wanted) return;
+  const double area = static_cast<double>(size.width) * size.height;
+  const int cell = std::max(1, static_cast<int>(std::sqrt(area / (kMaxCellShare * wanted))));
+  const int columns = size.width / cell + 1;
+  const int rows = size.height / cell + 1;
+  std::vector<Ranked> ranked(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const int x = static_cast<int>(corners[i].pt.x);
+    const int y = static_cast<int>(corners[i].pt.y);
+    ranked[i] = {0, corners[i].response, y, x, i};
+  }
+  std::sort(ranked.begin(), ranked.end(), comes_first);  // by strength: all ranks are 0
+  std::vector<int> counts(static_cast<std::size_t>(columns * rows), 0);
+  for (Ranked& corner : ranked) {
+    corner.rank = counts[static_cast<std::size_t>(corner.y / cell * columns + corner.x / cell)]++;
+  }
+  std::nth_element(ranked.begin(), ranked.begin() + wanted, ranked.end(), comes_first);
+  ranked.resize(static_cast<std::size_t>(wanted));
+  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    return std::tie(a.y, a.x) < std::tie(b.y, b.x);
+  });
+  std::vector<cv::KeyPoint> kept;
+  kept.reserve(ranked.size());
+  for (const Ranked& corner : ranked) kept.push_back(corners[corner.index]);
+  corners = std::move(kept);
+}
+
+}  // namespace tsg

@@ -1,0 +1,58 @@
+#include "services/slam/lib/dynamic_classes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+namespace tsg {
+namespace {
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+VerdictOfLabel verdict_of_labels(const InstanceSegmentation& mask,
+                                 const DynamicFilterConfig& config) {
+  VerdictOfLabel verdicts{};  // all static
+  const std::size_t count = std::min(mask.instances.size(), verdicts.size() - 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Instance& instance = mask.instances[i];
+    if (instance.score < config.min_score) continue;
+    if (contains(config.dynamic_classes, instance.class_name)) {
+      verdicts[i + 1] = FeatureVerdict::kDynamic;
+    } else if (contains(config.potentially_dynamic_classes, instance.class_name)) {
+      verdicts[i + 1] = FeatureVerdict::kPotentiallyDynamic;
+    }
+  }
+  return verdicts;
+}
+
+cv::Mat exact_verdicts(const InstanceSegmentation& mask, const DynamicFilterConfig& config) {
+  const VerdictOfLabel verdict_of = verdict_of_labels(mask, config);
+  cv::Mat table(1, 256, CV_8UC1);
+  for (int label = 0; label < 256; ++label) {
+    table.at<std::uint8_t>(label) =
+        static_cast<std::uint8_t>(verdict_of[static_cast<std::size_t>(label)]);
+  }
+  cv::Mat verdicts;
+  cv::LUT(mask.labels, table, verdicts);
+  dilate_dynamic(verdicts, static_cast<int>(std::lround(config.dilation_px)));
+  return verdicts;
+}
+
+void dilate_dynamic(cv::Mat& verdicts, int radius_px) {
+  if (radius_px <= 0) return;
+  // kDynamic is the largest verdict, but kPotentiallyDynamic must not grow with it.
+  const auto dynamic = static_cast<double>(FeatureVerdict::kDynamic);
+  cv::Mat grown = verdicts == dynamic;
+  const int side = 2 * radius_px + 1;
+  cv::dilate(grown, grown, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+  verdicts.setTo(dynamic, grown);
+}
+
+}  // namespace tsg

@@ -1,0 +1,59 @@
+#include "services/slam/lib/frame_matches.hpp"
+
+#include <algorithm>
+
+namespace tsg {
+
+void FrameMatches::drop_unmapped() {
+  for (Slot& slot : slots_) {
+    if (slot.id == kNoPoint) slot.matched = false;
+  }
+}
+
+PoseEstimate FrameMatches::optimise(const ObservationModel& model, const SE3& T_camera_world) {
+  PoseEstimate estimate = optimise_pose(model, to_point_matches(model), T_camera_world);
+  std::size_t match = 0;
+  for (Slot& slot : slots_) {
+    if (!slot.matched) continue;
+    if (!estimate.is_inlier[match++]) slot = Slot{};
+  }
+  return estimate;
+}
+
+std::vector<PointMatch> FrameMatches::to_point_matches(const ObservationModel& model) const {
+  std::vector<PointMatch> matches;
+  matches.reserve(slots_.size());
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (slots_[i].matched) {
+      matches.push_back({slots_[i].p_world, model.observe(features_->items[i])});
+    }
+  }
+  return matches;
+}
+
+int FrameMatches::count() const {
+  return static_cast<int>(
+      std::count_if(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.matched; }));
+}
+
+int FrameMatches::mapped() const {
+  return static_cast<int>(std::count_if(slots_.begin(), slots_.end(), [](const Slot& slot) {
+    return slot.matched && slot.id != kNoPoint;
+  }));
+}
+
+std::vector<bool> FrameMatches::taken() const {
+  std::vector<bool> taken(slots_.size());
+  std::transform(slots_.begin(), slots_.end(), taken.begin(),
+                 [](const Slot& slot) { return slot.matched; });
+  return taken;
+}
+
+std::vector<PointId> FrameMatches::points() const {
+  std::vector<PointId> points(slots_.size());
+  std::transform(slots_.begin(), slots_.end(), points.begin(),
+                 [](const Slot& slot) { return slot.matched ? slot.id : kNoPoint; });
+  return points;
+}
+
+}  // namespace tsg

@@ -1,0 +1,199 @@
+#include "services/slam/lib/local_mapper.hpp"
+
+#include <algorithm>
+#include <map>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "common/core/check.hpp"
+#include "services/slam/lib/dynamic_classes.hpp"
+#include "services/slam/lib/local_window.hpp"
+#include "services/slam/lib/map.hpp"
+#include "services/slam/lib/map_culling.hpp"
+#include "services/slam/lib/point_fusion.hpp"
+#include "services/slam/lib/snapshot_builder.hpp"
+
+namespace tsg {
+namespace {
+
+/// A keyframe that was taken out, relative to one that was not then.
+struct CulledKeyframe {
+  KeyframeId parent = 0;
+  SE3 T_parent_camera;
+  std::uint64_t seq = 0;
+  std::int64_t stamp_ns = 0;
+};
+
+}  // namespace
+
+struct LocalMapper::Impl {
+  Impl(const SlamConfig& slam_config, const CameraModel& camera)
+      : config(slam_config), model(camera, slam_config) {}
+
+  void link_tracked_points(const KeyframeCandidate& candidate, Keyframe& keyframe);
+  void add_points_from_depth(Keyframe& keyframe);
+  void note_sightings(const std::vector<PointSighting>& sightings);
+  void cull_keyframe(KeyframeId id);
+  [[nodiscard]] SE3 pose_of(KeyframeId id) const;
+
+  SlamConfig config;
+  ObservationModel model;
+  Map map;
+  KeyframeId newest = 0;
+  std::vector<PointId> recent_points;  ///< on trial, see cull_recent_points()
+  std::map<KeyframeId, CulledKeyframe> culled;
+  std::uint64_t version = 0;
+  std::shared_ptr<const LocalMapSnapshot> published;  ///< null where the map has changed since
+};
+
+void LocalMapper::Impl::link_tracked_points(const KeyframeCandidate& candidate,
+                                            Keyframe& keyframe) {
+  for (std::size_t i = 0; i < candidate.points.size(); ++i) {
+    if (candidate.points[i] == kNoPoint) continue;
+    MapPoint* point = map.find_point(candidate.points[i]);  // may be gone since it was tracked
+    if (point != nullptr && map.add_observation(*point, keyframe, static_cast<int>(i))) {
+      map.update_appearance(*point, model);
+    }
+  }
+}
+
+void LocalMapper::Impl::add_points_from_depth(Keyframe& keyframe) {
+  for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
+    const Feature& feature = keyframe.features->items[i];
+    if (keyframe.points[i] != kNoPoint || !feature.has_depth()) continue;
+    const Eigen::Vector3d p_camera =
+        model.camera().unproject(feature.pixel.cast<double>(), 1.0 / feature.inverse_depth);
+    const PointId id =
+        map.add_point(keyframe.T_world_camera * p_camera, keyframe, static_cast<int>(i));
+    map.update_appearance(*map.find_point(id), model);
+    recent_points.push_back(id);
+  }
+}
+
+void LocalMapper::Impl::note_sightings(const std::vector<PointSighting>& sightings) {
+  for (const PointSighting& sighting : sightings) {
+    MapPoint* point = map.find_point(sighting.id);
+    if (point == nullptr) continue;
+    point->expected += sighting.expected;
+    point->found += sighting.found;
+  }
+}
+
+void LocalMapper::Impl::cull_keyframe(KeyframeId id) {
+  const Keyframe& keyframe = map.keyframe(id);
+  const auto neighbours = map.covisible_with(keyframe);
+  const KeyframeId parent = neighbours.empty() ? 0 : neighbours.front().keyframe;
+  culled[id] = {
+      .parent = parent,
+      .T_parent_camera = map.keyframe(parent).T_world_camera.inverse() * keyframe.T_world_camera,
+      .seq = keyframe.features->seq,
+      .stamp_ns = keyframe.features->stamp_ns};
+  map.remove_keyframe(id);
+}
+
+SE3 LocalMapper::Impl::pose_of(KeyframeId id) const {
+  SE3 T_ancestor_camera;
+  auto place = culled.find(id);
+  while (place != culled.end()) {
+    T_ancestor_camera = place->second.T_parent_camera * T_ancestor_camera;
+    id = place->second.parent;
+    place = culled.find(id);
+  }
+  return map.keyframe(id).T_world_camera * T_ancestor_camera;
+}
+
+LocalMapper::LocalMapper(const SlamConfig& config, const CameraModel& camera)
+    : impl_(std::make_unique<Impl>(config, camera)) {}
+LocalMapper::~LocalMapper() = default;
+LocalMapper::LocalMapper(LocalMapper&&) noexcept = default;
+LocalMapper& LocalMapper::operator=(LocalMapper&&) noexcept = default;
+
+void LocalMapper::insert(KeyframeCandidate&& candidate) {
+  impl_->published.reset();
+  const bool is_first = impl_->map.keyframes().empty();
+  const SE3 T_world_reference = is_first ? SE3() : impl_->pose_of(candidate.reference);
+  Keyframe& keyframe =
+      impl_->map.add_keyframe({.id = candidate.id,
+                               .features = candidate.features,
+                               .T_world_camera = T_world_reference * candidate.T_reference_camera,
+                               .points = std::vector<PointId>(candidate.features->size(), kNoPoint),
+                               .banned = std::vector<bool>(candidate.features->size(), false)});
+  impl_->newest = candidate.id;
+  impl_->note_sightings(candidate.sightings);
+  impl_->link_tracked_points(candidate, keyframe);
+  impl_->add_points_from_depth(keyframe);
+  fuse_with_neighbours(impl_->map, impl_->model, impl_->config.mapper, candidate.id);
+  cull_recent_points(impl_->map, impl_->newest, impl_->recent_points);
+}
+
+void LocalMapper::refine(const std::stop_token& stop) {
+  if (impl_->map.keyframes().size() < 2) return;
+  impl_->published.reset();
+  const MapperConfig& config = impl_->config.mapper;
+  LocalWindow window(impl_->map, impl_->model, config, impl_->newest);
+  const BundleLimits limits{.max_iterations = config.max_iterations,
+                            .time_budget_s = config.time_budget_s,
+                            .must_stop = [&stop] { return stop.stop_requested(); }};
+  if (adjust_bundle(impl_->model, limits, window.problem()).usable) {
+    window.write_back(impl_->map, impl_->model);
+  }
+  while (!stop.stop_requested()) {
+    const auto redundant = find_redundant_keyframe(impl_->map, config, impl_->newest);
+    if (!redundant) break;
+    impl_->cull_keyframe(*redundant);
+  }
+}
+
+void LocalMapper::remove_points(const std::vector<PointId>& points) {
+  if (points.empty()) return;
+  impl_->published.reset();
+  for (const PointId id : points) impl_->map.remove_point(id);
+}
+
+bool LocalMapper::apply_mask(const InstanceSegmentation& mask) {
+  const auto& keyframes = impl_->map.keyframes();
+  const auto place = std::find_if(keyframes.rbegin(), keyframes.rend(), [&](const auto& entry) {
+    return entry.second.features->seq == mask.frame_seq;
+  });
+  if (place == keyframes.rend()) return false;
+  impl_->published.reset();
+  Keyframe& keyframe = *impl_->map.find_keyframe(place->first);
+  const cv::Mat verdicts = exact_verdicts(mask, impl_->config.dynamic_filter);
+  for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
+    const Feature& feature = keyframe.features->items[i];
+    const auto verdict =
+        static_cast<FeatureVerdict>(verdicts.at<std::uint8_t>(feature.raw_y, feature.raw_x));
+    if (verdict != FeatureVerdict::kDynamic) continue;
+    keyframe.banned[i] = true;
+    // Whoever saw the same point saw the same moving thing.
+    if (keyframe.points[i] != kNoPoint) impl_->map.remove_point(keyframe.points[i]);
+  }
+  return true;
+}
+
+std::shared_ptr<const LocalMapSnapshot> LocalMapper::snapshot() {
+  if (impl_->published) return impl_->published;
+  LocalMapSnapshot snapshot;
+  if (!impl_->map.keyframes().empty()) {
+    snapshot = build_snapshot(impl_->map, impl_->config.mapper, impl_->newest);
+  }
+  snapshot.version = ++impl_->version;
+  impl_->published = std::make_shared<const LocalMapSnapshot>(std::move(snapshot));
+  return impl_->published;
+}
+
+std::vector<KeyframePose> LocalMapper::keyframe_poses() const {
+  std::map<KeyframeId, KeyframePose> poses;
+  for (const auto& [id, keyframe] : impl_->map.keyframes()) {
+    poses[id] = {id, keyframe.features->seq, keyframe.features->stamp_ns, keyframe.T_world_camera};
+  }
+  for (const auto& [id, keyframe] : impl_->culled) {
+    poses[id] = {id, keyframe.seq, keyframe.stamp_ns, impl_->pose_of(id)};
+  }
+  std::vector<KeyframePose> sorted;
+  sorted.reserve(poses.size());
+  for (const auto& [id, pose] : poses) sorted.push_back(pose);
+  return sorted;
+}
+
+}  // namespace tsg

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "common/geometry/se3.hpp"
+#include "services/slam/lib/features.hpp"
+#include "services/slam/lib/ids.hpp"
+#include "services/slam/lib/observation_model.hpp"
+
+namespace tsg {
+
+/// The sighting of a map point in a keyframe.
+struct Observation {
+  KeyframeId keyframe = 0;
+  int feature = 0;
+};
+
+/// A point of the static world.
+struct MapPoint {
+  PointId id = kNoPoint;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< world
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, mean direction to the cameras
+  double min_distance = 0.0;              ///< metres; nearer, it fills more than the coarsest level
+  double max_distance = 0.0;              ///< metres at which it shows in level 0
+  Descriptor descriptor{};                ///< of the observation that is closest to all others
+  std::vector<Observation> observations;  ///< sorted by keyframe, at most one of each
+  KeyframeId created_in = 0;
+  int expected = 0;  ///< frames in which tracking looked for it
+  int found = 0;     ///< and saw it
+};
+
+/// A frame kept in the map with its pose.
+struct Keyframe {
+  KeyframeId id = 0;
+  std::shared_ptr<const Features> features;
+  SE3 T_world_camera;
+  std::vector<PointId> points;  ///< per feature, or kNoPoint
+  std::vector<bool> banned;     ///< per feature: lies on something dynamic, shows no map point
+};
+
+/// How many map points a keyframe shares with another.
+struct Covisibility {
+  KeyframeId keyframe = 0;
+  int shared = 0;
+};
+
+/// Keyframes, map points and the observations that join them. Both ends of an observation are kept
+/// in step here and nowhere else. Owned by LocalMapper.
+class Map {
+ public:
+  Keyframe& add_keyframe(Keyframe keyframe);
+  /// A new point first seen by a feature of `keyframe`.
+  PointId add_point(const Eigen::Vector3d& position, Keyframe& keyframe, int feature);
+
+  /// Joins point and feature unless one of them is joined already; says whether it did.
+  bool add_observation(MapPoint& point, Keyframe& keyframe, int feature);
+  /// Takes an observation out, and the point with it when none is left.
+  void remove_observation(PointId point, KeyframeId keyframe);
+  void remove_point(PointId point);
+  void remove_keyframe(KeyframeId keyframe);
+  /// Gives the observations of `from` to `to` where its keyframes do not see `to`; removes `from`.
+  void merge_points(PointId from, PointId to);
+
+  /// Brings normal, distance range and descriptor in line with the observations.
+  void update_appearance(MapPoint& point, const ObservationModel& model) const;
+
+  /// Keyframes that share points with `keyframe`, most first.
+  [[nodiscard]] std::vector<Covisibility> covisible_with(const Keyframe& keyframe) const;
+
+  [[nodiscard]] MapPoint* find_point(PointId id);
+  [[nodiscard]] const MapPoint* find_point(PointId id) const;
+  [[nodiscard]] Keyframe* find_keyframe(KeyframeId id);
+  [[nodiscard]] const Keyframe& keyframe(KeyframeId id) const { return keyframes_.at(id); }
+  [[nodiscard]] const std::map<KeyframeId, Keyframe>& keyframes() const { return keyframes_; }
+  [[nodiscard]] std::size_t point_count() const { return points_.size(); }
+
+ private:
+  std::map<KeyframeId, Keyframe> keyframes_;
+  std::unordered_map<PointId, MapPoint> points_;  ///< never iterated: its order is no one's
+  PointId next_point_ = 0;
+};
+
+}  // namespace tsg

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/geometry/camera_model.hpp"
+#include "common/geometry/se3.hpp"
+#include "services/slam/lib/features.hpp"
+#include "services/slam/lib/slam_config.hpp"
+
+namespace tsg {
+
+/// 95 % quantiles of chi-square: a sighting beyond is an outlier.
+inline constexpr double kChiSquare2 = 5.991;  ///< pixel only
+inline constexpr double kChiSquare3 = 7.815;  ///< pixel and inverse depth
+
+/// A sighting of a point: where, and how far if the sensor knows.
+struct PointObservation {
+  Eigen::Vector2d pixel;       ///< undistorted
+  double inverse_depth = 0.0;  ///< 1/m; 0 = not measured
+  double pixel_weight = 1.0;   ///< 1 / standard deviation, 1/pixels
+
+  [[nodiscard]] bool has_depth() const { return inverse_depth > 0.0; }
+  [[nodiscard]] double chi_square_limit() const { return has_depth() ? kChiSquare3 : kChiSquare2; }
+};
+
+using Jacobian36 = Eigen::Matrix<double, 3, 6>;
+
+/// How a camera with depth sees points: pixel and inverse depth. Inverse depth takes the place of
+/// the right image coordinate of a stereo camera (u_r = u - f b / z): it is what a structured-light
+/// sensor measures, so its standard deviation is one number at all distances (Khoshelham and
+/// Elberink 2012), and its error has nothing to do with that of the corner.
+class ObservationModel {
+ public:
+  ObservationModel(const CameraModel& camera, const SlamConfig& config);
+
+  [[nodiscard]] PointObservation observe(const Feature& feature) const;
+
+  /// Standard deviations of pixel x, y and inverse depth that the point misses the observation by;
+  /// the third is 0 where depth was not measured. `p_camera.z()` must be positive.
+  [[nodiscard]] Eigen::Vector3d residual(const PointObservation& observation,
+                                         const Eigen::Vector3d& p_camera) const;
+
+  /// Derivative of residual() by the point.
+  [[nodiscard]] Eigen::Matrix3d point_jacobian(const PointObservation& observation,
+                                               const Eigen::Vector3d& p_camera) const;
+
+  [[nodiscard]] const CameraModel& camera() const { return camera_; }
+  /// Pixels of level 0 per pixel of `level`.
+  [[nodiscard]] double level_scale(int level) const {
+    return level_scales_[static_cast<std::size_t>(level)];
+  }
+  [[nodiscard]] double inverse_depth_sigma() const { return 1.0 / inverse_depth_weight_; }
+  [[nodiscard]] int levels() const { return static_cast<int>(level_scales_.size()); }
+  /// Level at which a thing last seen at `max_distance` in level 0 shows from `distance`.
+  [[nodiscard]] int level_at(double max_distance, double distance) const;
+
+ private:
+  CameraModel camera_;
+  double inverse_depth_weight_;
+  double log_scale_factor_;
+  std::vector<double> level_scales_;
+  std::vector<double> pixel_weights_;  ///< of each level
+};
+
+/// Derivative of p_camera by a small left-hand twist xi of the pose: exp(xi) * T_camera_world.
+[[nodiscard]] Jacobian36 twist_jacobian(const Eigen::Vector3d& p_camera);
+
+}  // namespace tsg

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "services/slam/lib/local_map_snapshot.hpp"
+#include "services/slam/lib/map.hpp"
+#include "services/slam/lib/slam_config.hpp"
+
+namespace tsg {
+
+/// Copies what tracking needs around keyframe `newest`: it, its covisible neighbours, then the
+/// keyframes that look at the same place from near by, whether linked or not. So a place that is
+/// seen again is matched to what was mapped there first.
+[[nodiscard]] LocalMapSnapshot build_snapshot(const Map& map,
+                                              const MapperConfig& config,
+                                              KeyframeId newest);
+
+}  // namespace tsg
