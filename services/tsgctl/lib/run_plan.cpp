@@ -8,16 +8,14 @@ namespace tsg {
 namespace {
 
 /// Keys that an option of `tsgctl run` decides: setting them as well could only contradict it.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kKeysOfOptions{{
-    {"camera.source", "--input"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kKeysOfOptions{{
     {"camera.input", "--input"},
     {"camera.pace", "--pace"},
     {"slam.lockstep", "--pace"},
     {"slam.expect_masks", "--segmentation"},
     {"segmentation.provider", "--segmentation"},
-    {"segmentation.input", "--input"},
-    {"segmentation.wait_for_every_frame", "--pace"},
-    {"segmentation.model", "--model"},
+    {"segmentation.dataset.folder", "--input"},
+    {"segmentation.model.file", "--model"},
 }};
 
 Expected<void> check_override(const std::string& override_text) {
@@ -69,9 +67,9 @@ std::vector<std::string> segmentation_arguments(const RunOptions& options) {
   Arguments arguments(options);
   arguments.set("segmentation.provider=" + std::string(to_string(options.segmentation)));
   if (options.segmentation == SegmentationSource::kDataset) {
-    arguments.set("segmentation.input=" + options.input.string());
+    arguments.set("segmentation.dataset.folder=" + options.input.string());
   } else {
-    arguments.set("segmentation.model=" + options.model.string());
+    arguments.set("segmentation.model.file=" + options.model.string());
   }
   return arguments.take();
 }
@@ -118,9 +116,9 @@ Expected<RunPlan> make_run_plan(const RunOptions& options,
     plan.processes.push_back(
         {"segmentation", bin_folder / "tsg-segmentation", segmentation_arguments(options)});
   }
+  plan.processes.push_back({"slam", bin_folder / "tsg-slam", slam_arguments(options)});
   plan.processes.push_back(
       {"map_server", bin_folder / "tsg-map-server", Arguments(options).take()});
-  plan.processes.push_back({"slam", bin_folder / "tsg-slam", slam_arguments(options)});
   plan.processes.push_back({"camera", bin_folder / "tsg-camera", camera_arguments(options)});
   return plan;
 }

@@ -41,8 +41,8 @@ struct ProcessPlan {
   std::vector<std::string> arguments;
 };
 
-/// Which processes make up the run, in the order of their start: consumers before producers, so
-/// that nothing is sent before somebody listens; the camera is the last.
+/// Which processes make up the run, in the order of their start: the camera is the last, so that no
+/// frame is sent before somebody listens.
 struct RunPlan {
   std::vector<ProcessPlan> processes;
 

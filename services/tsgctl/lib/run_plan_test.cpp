@@ -41,15 +41,15 @@ RunPlan planned(const RunOptions& options) {
   return plan.value_or(RunPlan{});
 }
 
-TEST(RunPlan, StartsConsumersFirstAndTheCameraLast) {
+TEST(RunPlan, StartsTheCameraLast) {
   const RunPlan plan = planned(options_of(SegmentationSource::kDataset));
-  EXPECT_THAT(names_of(plan), ElementsAre("segmentation", "map_server", "slam", "camera"));
+  EXPECT_THAT(names_of(plan), ElementsAre("segmentation", "slam", "map_server", "camera"));
   EXPECT_EQ(plan.camera().executable, "/opt/tsg/bin/tsg-camera");
 }
 
 TEST(RunPlan, SegmentationOffStartsNoSegmentationAndExpectsNoMasks) {
   const RunPlan plan = planned(options_of(SegmentationSource::kOff));
-  EXPECT_THAT(names_of(plan), ElementsAre("map_server", "slam", "camera"));
+  EXPECT_THAT(names_of(plan), ElementsAre("slam", "map_server", "camera"));
   EXPECT_THAT(arguments_of(plan, "slam"), Contains("slam.expect_masks=false"));
 }
 
@@ -66,7 +66,7 @@ TEST(RunPlan, ModelReachesSegmentation) {
   const RunPlan plan = planned(options_of(SegmentationSource::kModel));
   EXPECT_THAT(
       arguments_of(plan, "segmentation"),
-      IsSupersetOf({"segmentation.provider=model", "segmentation.model=/models/yolo.onnx"}));
+      IsSupersetOf({"segmentation.provider=model", "segmentation.model.file=/models/yolo.onnx"}));
 }
 
 TEST(RunPlan, ConfigurationAndOverridesReachEveryService) {

@@ -48,8 +48,8 @@ struct RunReport {
   double duration_s = 0.0;  ///< first frame sent to last frame answered
   std::uint64_t frames_total = 0;
   TrackingTotals tracking;
-  std::optional<TrajectoryAccuracy> accuracy =
-      std::nullopt;  ///< of trajectory.txt; needs ground truth
+  /// Of trajectory.txt; needs ground truth.
+  std::optional<TrajectoryAccuracy> accuracy = std::nullopt;
   /// Of the poses as they were published.
   std::optional<TrajectoryAccuracy> accuracy_live = std::nullopt;
   std::vector<ObjectCount> objects;

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "common/dataset/trajectory.hpp"
+#include "services/tsgctl/lib/run_report.hpp"
+
+namespace tsg {
+
+/// ATE and RPE of the trajectory in a file; nothing where the file is absent or shares too few
+/// moments with the truth to be compared.
+[[nodiscard]] std::optional<TrajectoryAccuracy> measure_accuracy(
+    const Trajectory& truth, const std::filesystem::path& estimate);
+
+}  // namespace tsg

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tsg {
+
+/// The last `lines` lines of a text file, each indented, for an error message; says so where the
+/// file is empty or cannot be read.
+[[nodiscard]] std::string log_tail(const std::filesystem::path& path, std::size_t lines);
+
+}  // namespace tsg

@@ -1,0 +1,78 @@
+#include "services/tsgctl/run/roudi_process.hpp"
+
+#include <chrono>
+#include <string>
+
+#include "common/bus/roudi.hpp"
+#include "services/tsgctl/run/log_tail.hpp"
+
+namespace tsg {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kStartTimeout{10'000};
+constexpr milliseconds kProbePeriod{20};
+constexpr milliseconds kStopGrace{500};
+constexpr std::size_t kLogLinesShown = 8;
+
+std::string log_end(const std::filesystem::path& log_file) {
+  return "; its log, " + log_file.string() + ", ends with\n" + log_tail(log_file, kLogLinesShown);
+}
+
+}  // namespace
+
+std::filesystem::path program_folder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+Expected<std::filesystem::path> find_roudi_config() {
+  const std::filesystem::path installed = program_folder() / "../share/tsg-slam/config/roudi.toml";
+  const std::filesystem::path in_source = TSG_SOURCE_DIR "/config/roudi.toml";
+  for (const auto& candidate : {installed, in_source}) {
+    if (std::filesystem::exists(candidate)) return candidate.lexically_normal();
+  }
+  return make_error(ExitCode::kMissingInput,
+                    "roudi.toml, the configuration of RouDi, is in neither " +
+                        installed.lexically_normal().string() + " nor " + in_source.string() +
+                        "; install TSG-SLAM again, or start iox-roudi yourself");
+}
+
+RoudiProcess::RoudiProcess(const std::filesystem::path& log_file, const std::stop_token& stop) {
+  if (check_roudi()) return;
+  const std::filesystem::path config = value_or_throw(find_roudi_config());
+  ChildCommand command;
+  command.program = "iox-roudi";
+  command.arguments = {"-c", config.string()};
+  command.output_file = log_file;
+  auto child = ChildProcess::spawn(command);
+  if (!child) {
+    throw FatalError(ExitCode::kUnavailable, child.error().message +
+                                                 "; RouDi is in the package iceoryx: run "
+                                                 "deploy/install-deps");
+  }
+  child_ = std::move(*child);
+  wait_until_it_answers(log_file, stop);
+}
+
+void RoudiProcess::wait_until_it_answers(const std::filesystem::path& log_file,
+                                         const std::stop_token& stop) {
+  const auto deadline = std::chrono::steady_clock::now() + kStartTimeout;
+  while (!stop.stop_requested()) {
+    if (const auto& end = child_->wait(kProbePeriod)) {
+      throw FatalError(ExitCode::kUnavailable, "RouDi could not start (" + end->describe() +
+                                                   "); tsgctl doctor tells more" +
+                                                   log_end(log_file));
+    }
+    if (check_roudi()) return;
+    if (std::chrono::steady_clock::now() > deadline) {
+      throw FatalError(ExitCode::kTimeout, "RouDi does not answer" + log_end(log_file));
+    }
+  }
+}
+
+RoudiProcess::~RoudiProcess() {
+  if (child_) child_->terminate(kStopGrace);
+}
+
+}  // namespace tsg

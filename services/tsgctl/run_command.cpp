@@ -1,0 +1,106 @@
+#include "services/tsgctl/run_command.hpp"
+
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "common/app/stop_on_signal.hpp"
+#include "common/core/atomic_file.hpp"
+#include "services/tsgctl/bus_options.hpp"
+#include "services/tsgctl/lib/run_summary.hpp"
+#include "services/tsgctl/run/run_session.hpp"
+
+namespace tsg {
+namespace {
+
+/// What stands on the command line.
+struct RunArguments {
+  RunOptions options;
+  BusOptions bus;
+  std::string pace = "realtime";
+  std::string segmentation;  ///< empty: what the input and --model suggest
+};
+
+constexpr const char* kFooter = R"(
+Without --segmentation: "model" where --model is given, "dataset" where the input has true masks
+(mask/ and instances.json), else "off".
+
+Writes trajectory.txt, trajectory_live.txt, keyframes.txt (TUM format), map.ot, map.bt, cloud.ply,
+report.json and logs/ into OUT. Ctrl-C stops everything and keeps what there is.
+
+Examples:
+  tsgctl run --input data/walking_xyz --out out
+  tsgctl run --input data/walking_xyz --out out --pace lockstep --segmentation dataset
+  tsgctl run --input data/fr3_walking --out out --segmentation model --model yolov8n-seg.onnx
+  tsgctl run --input data/desk --out out --set slam.max_features=800
+Ends with 0 when every process did its work; other codes: docs/exit-codes.md.)";
+
+void describe(CLI::App& command, RunArguments& arguments) {
+  RunOptions& options = arguments.options;
+  command.add_option("--input", options.input, "Sequence in TUM RGB-D layout")
+      ->required()
+      ->type_name("DIR");
+  command.add_option("--out", options.out, "Folder for the results; made if it is not there")
+      ->required()
+      ->type_name("DIR");
+  command
+      .add_option("--pace", arguments.pace,
+                  "realtime: frames come at the pace of their stamps (default); lockstep: each "
+                  "waits for the answer to the one before, deterministic")
+      ->check(CLI::IsMember({"realtime", "lockstep"}).description(""))
+      ->type_name("realtime|lockstep");
+  command.add_option("--segmentation", arguments.segmentation, "Where masks come from")
+      ->check(CLI::IsMember({"dataset", "model", "off"}).description(""))
+      ->type_name("dataset|model|off");
+  command.add_option("--model", options.model, "Network for --segmentation model")
+      ->type_name("FILE.onnx");
+  add_bus_options(command, arguments.bus);
+  command.footer(kFooter);
+}
+
+SegmentationSource segmentation_of(const RunArguments& arguments) {
+  if (arguments.segmentation == "dataset") return SegmentationSource::kDataset;
+  if (arguments.segmentation == "model") return SegmentationSource::kModel;
+  if (arguments.segmentation == "off") return SegmentationSource::kOff;
+  if (!arguments.options.model.empty()) return SegmentationSource::kModel;
+  return has_true_masks(arguments.options.input) ? SegmentationSource::kDataset
+                                                 : SegmentationSource::kOff;
+}
+
+/// Writes report.json and adds it to the files of the report, for the summary.
+Expected<void> write_report(RunReport& report) {
+  const std::filesystem::path path = std::filesystem::path(report.out) / "report.json";
+  const std::string text = to_json(report).dump(2) + "\n";
+  if (auto written = write_file_atomically(path, text); !written) return written;
+  report.files.push_back({"report.json", text.size()});
+  return {};
+}
+
+void run(RunArguments& arguments) {
+  RunOptions& options = arguments.options;
+  options.config = arguments.bus.config;
+  options.overrides = arguments.bus.overrides;
+  options.pace = arguments.pace == "lockstep" ? Pace::kLockstep : Pace::kRealtime;
+  options.segmentation = segmentation_of(arguments);
+  const StopOnSignal signals;
+  const Sequence sequence = open_sequence(options);
+  RunSession session(options, sequence, signals);
+  RunOutcome outcome = session.run();
+  const Expected<void> written = write_report(outcome.report);
+  if (outcome.report.tracking.answered > 0) std::cout << summary_text(outcome.report);
+  // The failure that ended the run matters more than one at writing about it.
+  if (outcome.failure) throw *outcome.failure;
+  throw_on_error(written);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand(
+      "run", "Run the whole system on a recorded sequence: trajectory, map, report");
+  const auto arguments = std::make_shared<RunArguments>();
+  describe(command, *arguments);
+  command.callback([arguments] { run(*arguments); });
+}
+
+}  // namespace tsg
