@@ -10,8 +10,8 @@
 namespace tsg {
 namespace {
 
+using test::TempFolder;
 using ::testing::HasSubstr;
-using testing_support::TempFolder;
 
 constexpr const char* kPlain =
     "fx: 517.3\nfy: 516.5\ncx: 318.6\ncy: 255.3\nwidth: 640\nheight: 480\ndepth_scale: 5000\n";

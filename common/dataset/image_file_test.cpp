@@ -13,11 +13,11 @@
 namespace tsg {
 namespace {
 
+using test::content_of;
+using test::is_same_image;
+using test::SyntheticSequence;
+using test::TempFolder;
 using ::testing::HasSubstr;
-using testing_support::content_of;
-using testing_support::is_same_image;
-using testing_support::SyntheticSequence;
-using testing_support::TempFolder;
 
 const cv::Size kSize{64, 48};
 

@@ -7,14 +7,14 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "tests/support/shared_data.hpp"
+#include "tests/support/shared_dir.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace tsg {
 namespace {
 
+using test::TempFolder;
 using ::testing::HasSubstr;
-using testing_support::TempFolder;
 
 constexpr const char* kInstances = R"({"instances": {
   "17": {"cls": "couch", "name": "sofa", "dynamic": false, "frames_visible": 2},
@@ -128,8 +128,8 @@ TEST_F(InstanceTruths, FolderWithoutMasksIsEmptyInput) {
 }
 
 TEST(RecordedInstances, OfTheMovedChairAreKnownWithTheirMotion) {
-  const auto path = testing_support::shared_dir() / "data" / "rendered" / "moved_chair";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no recorded data in " << path;
+  const auto path = test::shared_dir() / "data" / "rendered" / "moved_chair";
+  TSG_REQUIRE_SHARED("data/rendered/moved_chair");
   const auto truth = InstanceTruth::open(path);
   ASSERT_TRUE(truth) << truth.error().message;
   EXPECT_EQ(truth->instances().at(205).class_name, "chair");

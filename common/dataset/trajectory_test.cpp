@@ -11,9 +11,9 @@
 namespace tsg {
 namespace {
 
+using test::content_of;
+using test::TempFolder;
 using ::testing::HasSubstr;
-using testing_support::content_of;
-using testing_support::TempFolder;
 
 constexpr const char* kPose = "1.5 1 2 3 0 0 0 1\n";
 

@@ -6,17 +6,17 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "tests/support/shared_data.hpp"
+#include "tests/support/shared_dir.hpp"
 #include "tests/support/synthetic_sequence.hpp"
 
 namespace tsg {
 namespace {
 
+using test::content_of;
+using test::is_same_image;
+using test::SyntheticSequence;
+using test::TempFolder;
 using ::testing::HasSubstr;
-using testing_support::content_of;
-using testing_support::is_same_image;
-using testing_support::SyntheticSequence;
-using testing_support::TempFolder;
 
 template <typename T>
 void expect_error(const Expected<T>& result, ExitCode code, const std::string& text) {
@@ -129,8 +129,8 @@ TEST_F(TumFolders, TruncatedImageIsBadDataAndNamed) {
 }
 
 void expect_recorded(const std::string& name, std::size_t frames) {
-  const auto path = testing_support::shared_dir() / "data" / name;
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no recorded data in " << path;
+  TSG_REQUIRE_SHARED("data/" + name);
+  const auto path = test::shared_dir() / "data" / name;
   const auto folder = open_tum_folder(path);
   ASSERT_TRUE(folder) << folder.error().message;
   EXPECT_EQ(folder->frames.size(), frames);

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing_support::TempFolder;
+using test::TempFolder;
 
 Summary make_summary(double rmse) {
   Summary summary;

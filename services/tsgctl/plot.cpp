@@ -119,13 +119,14 @@ void write_style(std::ostream& script, const TrajectoryPlot& plot, const Axes& a
          << quoted(subtitle(plot.error.translation_m)) << " noenhanced font ',15'\n"
          << "set xlabel '" << kAxisNames.at(static_cast<std::size_t>(axes.horizontal)) << " [m]'\n"
          << "set ylabel '" << kAxisNames.at(static_cast<std::size_t>(axes.vertical)) << " [m]'\n"
-         << "set cblabel 'position error [mm]'\n"
+         << "set cblabel 'position error [mm]' offset 1.5,0\n"
          << "set cbrange [0:" << top_mm << "]\n"
          << "set palette defined (0 '#2c7bb6', 0.35 '#00a6ca', 0.55 '#90c987', 0.75 '#f9a03f', "
             "1 '#d7191c')\n"
-         << "set size ratio -1\nset offsets graph 0.06, graph 0.06, graph 0.06, graph 0.06\n"
-         << "set grid lc rgb '#e4e4e4' lw 1\nset border lc rgb '#606060'\nset tics nomirror\n"
-         << "set key outside bottom center horizontal samplen 3\n";
+         << "set size ratio -1\nset offsets graph 0.04, graph 0.04, graph 0.04, graph 0.04\n"
+         << "set grid lt 1 lc rgb '#dddddd' lw 1\nset border lc rgb '#606060'\nset tics nomirror\n"
+         << "set bmargin at screen 0.15\nset tmargin at screen 0.90\n"
+         << "set key at screen 0.5, screen 0.03 center bottom horizontal Left reverse samplen 3\n";
 }
 
 }  // namespace
@@ -134,7 +135,7 @@ std::string plot_script(const TrajectoryPlot& plot, const fs::path& png) {
   const Axes axes = widest_axes(plot.error.matched);
   std::ostringstream script;
   script << std::setprecision(9) << "set encoding utf8\n"
-         << "set terminal pngcairo size 1200,900 font 'sans,13' background '#ffffff'\n"
+         << "set terminal pngcairo rounded size 1200,900 font 'sans,13' background '#ffffff'\n"
          << "set output " << quoted(png.string()) << '\n';
   write_truth(script, covered_truth(plot), axes);
   write_estimate(script, plot.error, axes);

@@ -9,7 +9,7 @@
 
 #include "tests/support/temp_folder.hpp"
 
-namespace tsg::testing_support {
+namespace tsg::test {
 
 inline constexpr std::int64_t kSequenceStartNs = 1'700'000'000'000'000'000;
 
@@ -84,4 +84,4 @@ inline bool is_same_image(const cv::Mat& a, const cv::Mat& b) {
   return a.type() == b.type() && a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0.0;
 }
 
-}  // namespace tsg::testing_support
+}  // namespace tsg::test

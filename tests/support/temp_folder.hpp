@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace tsg::testing_support {
+namespace tsg::test {
 
 /// A folder for one test, removed with all that is in it at the end.
 class TempFolder {
@@ -48,4 +48,4 @@ inline std::string content_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-}  // namespace tsg::testing_support
+}  // namespace tsg::test
