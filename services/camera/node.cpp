@@ -87,15 +87,17 @@ void CameraNode::run() {
 }
 
 void CameraNode::wait_for_peers() {
+  // slam first: the wait for subscribers gives it time to find our end of its answers, too.
+  if (config_.is_lockstep()) {
+    wait_for([&] { return answers_.wait_for_publishers(1, kChorePeriod, context_.stop); },
+             "slam, whose answers lockstep needs,");
+  }
   wait_for(
       [&] {
         return frames_.wait_for_subscribers(config_.wait_for_subscribers, kChorePeriod,
                                             context_.stop);
       },
       std::to_string(config_.wait_for_subscribers) + " subscribers of tsg/rgbd");
-  if (!config_.is_lockstep()) return;
-  wait_for([&] { return answers_.wait_for_publishers(1, kChorePeriod, context_.stop); },
-           "slam, whose answers lockstep needs,");
 }
 
 void CameraNode::wait_for(const std::function<bool()>& is_there, const std::string& whom) {

@@ -1,0 +1,219 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <thread>
+#include <vector>
+
+#include "common/bus/command.hpp"
+#include "common/bus/convert.hpp"
+#include "common/bus/diagnostics.hpp"
+#include "tests/component/camera_process.hpp"
+#include "tests/support/synthetic_sequence.hpp"
+#include "tests/support/test_bus.hpp"
+
+namespace tsg::test {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+/// A camera with a made-up sequence, and the other side of its topics.
+class Camera : public ::testing::Test {
+ protected:
+  void write_sequence(int frames) {
+    sequence_.frames = frames;
+    sequence_.write_to(folder_);
+    (void)bus_.subscriber<topics::Rgbd>();  // is there before the camera looks for it
+  }
+
+  std::optional<Sample<topics::Rgbd>> take(std::chrono::milliseconds timeout = 10s) {
+    return bus_.subscriber<topics::Rgbd>().take({}, timeout);
+  }
+
+  /// What slam says once it is done with a frame.
+  void answer(std::uint64_t seq) {
+    tsg_TrackingStatus status{};
+    status.header.seq = seq;
+    ASSERT_TRUE(bus_.publisher<topics::TrackingStatus>().publish(status));
+  }
+
+  nlohmann::json report() {
+    CommandClient client(bus_.bus());
+    const auto reply = client.call("camera", "report", "{}", 5s);
+    EXPECT_TRUE(reply) << reply.error().message;
+    return reply ? nlohmann::json::parse(*reply) : nlohmann::json::object();
+  }
+
+  void expect_frame(const Sample<topics::Rgbd>& sample, int index) {
+    const auto frame = view_as_frame(*sample);
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_EQ(frame->seq, static_cast<std::uint64_t>(index));
+    EXPECT_EQ(frame->stamp_ns, sequence_.stamp_ns(index));
+    EXPECT_DOUBLE_EQ(frame->camera.fy, 51.0);
+    EXPECT_DOUBLE_EQ(frame->camera.distortion[4], 0.5);
+    EXPECT_DOUBLE_EQ(frame->depth_units_per_metre, 5000.0);
+    EXPECT_TRUE(is_same_image(frame->colour, sequence_.colour(index)));
+    EXPECT_TRUE(is_same_image(frame->depth, sequence_.depth(index)));
+    EXPECT_TRUE(sample.is_zero_copy());
+  }
+
+  TestBus bus_;
+  TempFolder folder_;
+  SyntheticSequence sequence_;
+};
+
+TEST_F(Camera, LockstepSendsEveryFrameIntactAndOnlyOnceTheLastIsAnswered) {
+  write_sequence(12);
+  (void)bus_.publisher<topics::TrackingStatus>();
+  CameraProcess camera(folder_.path(), {"camera.pace=lockstep"});
+  for (int i = 0; i < 12; ++i) {
+    const auto sample = take();
+    ASSERT_TRUE(sample) << camera.log();
+    expect_frame(*sample, i);
+    if (i < 2) {
+      EXPECT_FALSE(take(150ms)) << "a frame came before the last was answered";
+    }
+    answer(static_cast<std::uint64_t>(i));
+  }
+  EXPECT_EQ(camera.exit_code(), 0) << camera.log();
+  EXPECT_FALSE(take(10ms));
+}
+
+TEST_F(Camera, RealtimeSendsByTheStampsNeverEarlyAndNeverMoreThanAPeriodLate) {
+  write_sequence(45);
+  CameraProcess camera(folder_.path(), {"camera.drain_s=3"});
+  std::int64_t first_sent_ns = 0;
+  std::uint64_t received = 0;
+  std::uint64_t last_seq = 0;
+  while (const auto sample = take(received == 0 ? 10s : 1s)) {
+    const auto& header = (*sample)->header;
+    if (received++ == 0) first_sent_ns = header.publish_monotonic_ns - header.seq * 33'333'000;
+    const auto behind_ns =
+        header.publish_monotonic_ns - first_sent_ns - (header.stamp_ns - kSequenceStartNs);
+    EXPECT_GT(behind_ns, -2'000'000) << "frame " << header.seq;
+    EXPECT_LT(behind_ns, 60'000'000) << "frame " << header.seq;
+    last_seq = header.seq;
+  }
+  const auto figures = report();
+  EXPECT_EQ(figures["frames_sent"], received);
+  EXPECT_EQ(figures["frames_sent"].get<int>() + figures["frames_late"].get<int>(), 45);
+  EXPECT_GE(received, 35U) << "a small sequence must hold 30 Hz even on a busy machine";
+  EXPECT_LE(last_seq, 44U);
+  EXPECT_EQ(camera.exit_code(), 0) << camera.log();
+}
+
+TEST_F(Camera, FramesThatAStallMadeLateAreDroppedAndCounted) {
+  write_sequence(45);
+  CameraProcess camera(folder_.path(), {"camera.drain_s=3"});
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(take()) << camera.log();
+  camera.child().signal(SIGSTOP);
+  std::this_thread::sleep_for(500ms);  // the stall itself
+  camera.child().signal(SIGCONT);
+  while (take(1s)) {
+  }
+  const auto figures = report();
+  const int late = figures["frames_late"];
+  EXPECT_GE(late, 10);
+  EXPECT_EQ(figures["frames_sent"].get<int>() + late, 45);
+  EXPECT_EQ(bus_.subscriber<topics::Rgbd>().missed(), static_cast<std::uint64_t>(late));
+}
+
+TEST_F(Camera, FramesWithoutFreeMemoryAreDroppedAndCountedUntilThereIsSomeAgain) {
+  write_sequence(75);
+  CameraProcess camera(folder_.path(), {"camera.drain_s=3"});
+  std::vector<Sample<topics::Rgbd>> kept;
+  while (auto sample = take(kept.empty() ? 10s : 400ms)) kept.push_back(std::move(*sample));
+  ASSERT_GT(kept.size(), 10U);
+  ASSERT_LT(kept.size(), 40U) << "the pool is larger than this test thinks";
+  kept.clear();
+  EXPECT_TRUE(take(1s)) << "frames must flow again";
+  while (take(1s)) {
+  }
+  const auto figures = report();
+  EXPECT_GE(figures["frames_dropped_pool"].get<int>(), 5);
+  EXPECT_EQ(figures["frames_sent"].get<int>() + figures["frames_late"].get<int>() +
+                figures["frames_dropped_pool"].get<int>(),
+            75);
+  EXPECT_EQ(camera.exit_code(), 0) << camera.log();
+}
+
+TEST_F(Camera, TruncatedImageStopsItWithTheFileNamedAfterTheFramesBefore) {
+  write_sequence(10);
+  const auto image = folder_ / "depth" / (sequence_.stamp_text(6) + ".png");
+  folder_.write(image, content_of(image).substr(0, 500));
+  CameraProcess camera(folder_.path(), {});
+  for (int i = 0; i < 6; ++i) {
+    const auto sample = take();
+    ASSERT_TRUE(sample) << camera.log();
+    expect_frame(*sample, i);
+  }
+  EXPECT_EQ(camera.exit_code(), 65);
+  EXPECT_THAT(camera.log(), HasSubstr(image.string() + " is truncated"));
+}
+
+TEST_F(Camera, DepthOfAnotherSizeStopsItWithBothFilesNamed) {
+  write_sequence(3);
+  const std::string name = sequence_.stamp_text(0) + ".png";
+  cv::imwrite((folder_ / "depth" / name).string(), cv::Mat(24, 32, CV_16UC1, cv::Scalar(1)));
+  CameraProcess camera(folder_.path(), {});
+  EXPECT_EQ(camera.exit_code(), 68);
+  EXPECT_THAT(camera.log(), HasSubstr((folder_ / "rgb" / name).string() + " is 64x48"));
+  EXPECT_THAT(camera.log(), HasSubstr((folder_ / "depth" / name).string() + " is 32x24"));
+}
+
+TEST_F(Camera, SlamThatDoesNotAnswerIsATimeoutThatNamesIt) {
+  write_sequence(3);
+  (void)bus_.publisher<topics::TrackingStatus>();
+  CameraProcess camera(folder_.path(), {"camera.pace=lockstep", "camera.lockstep_timeout_s=0.5"});
+  EXPECT_EQ(camera.exit_code(), 75);
+  EXPECT_THAT(camera.log(), HasSubstr("slam has not answered frame 0 within 0.5 s"));
+}
+
+TEST_F(Camera, SubscribersThatDoNotComeAreATimeout) {
+  write_sequence(3);
+  CameraProcess camera(folder_.path(),
+                       {"camera.wait_for_subscribers=2", "camera.subscriber_timeout_s=0.5"});
+  EXPECT_EQ(camera.exit_code(), 75);
+  EXPECT_THAT(camera.log(), HasSubstr("2 subscribers of tsg/rgbd did not come within 0.5 s"));
+}
+
+TEST_F(Camera, ImagesLargerThanTheBusCarriesAreASizeMismatch) {
+  write_sequence(1);
+  folder_.write("camera.yaml", SyntheticSequence{.size = {1920, 1080}}.camera_yaml());
+  CameraProcess camera(folder_.path(), {});
+  EXPECT_EQ(camera.exit_code(), 68);
+  EXPECT_THAT(camera.log(), HasSubstr("1920x1080"));
+}
+
+TEST_F(Camera, SigtermEndsItWithinTwoSecondsWhateverItDoes) {
+  write_sequence(3);
+  CameraProcess sending(folder_.path(), {"camera.replay.loop=true"});
+  ASSERT_TRUE(take()) << sending.log();
+  sending.child().signal(SIGTERM);
+  EXPECT_EQ(sending.exit_code(2s), 0) << sending.log();
+
+  CameraProcess waiting(folder_.path(), {"camera.wait_for_subscribers=5"});
+  ASSERT_TRUE(bus_.watch<topics::Diagnostics>(10s)) << waiting.log();
+  waiting.child().signal(SIGTERM);
+  EXPECT_EQ(waiting.exit_code(2s), 0) << waiting.log();
+}
+
+TEST_F(Camera, SaysOnceASecondHowItIs) {
+  write_sequence(3);
+  CameraProcess camera(folder_.path(), {"camera.replay.loop=true"});
+  ASSERT_TRUE(bus_.watch<topics::Diagnostics>(10s)) << camera.log();
+  ASSERT_TRUE(bus_.wait_for<topics::Diagnostics>(5s, [](const auto& message) {
+    const auto status = to_diagnostics(message);
+    if (status.size() != 1 || status[0].name.find("camera") == std::string::npos) return false;
+    for (const auto& [key, value] : status[0].diagnostic.values) {
+      if (key == "rate_hz" && std::stod(value) > 15.0) return true;
+    }
+    return false;
+  })) << camera.log();
+}
+
+}  // namespace
+}  // namespace tsg::test
