@@ -1,9 +1,13 @@
 #include "services/slam/keyframe_publisher.hpp"
 
 #include "common/bus/convert.hpp"
+#include "common/core/time.hpp"
 
 namespace tsg {
 namespace {
+
+// iceoryx follows a match of DDS within two of its discovery rounds of 100 ms.
+constexpr std::int64_t kSettleNs = 250'000'000;
 
 Expected<void> fill(const DenseKeyframe& keyframe, tsg_Keyframe& message) {
   return fill_message(keyframe.frame, message).and_then([&]() -> Expected<void> {
@@ -14,7 +18,21 @@ Expected<void> fill(const DenseKeyframe& keyframe, tsg_Keyframe& message) {
 
 }  // namespace
 
+void KeyframePublisher::watch_subscribers() {
+  const int present = publisher_.subscriber_count();
+  if (present > subscribers_) joined_ns_ = monotonic_ns();
+  subscribers_ = present;
+}
+
+bool KeyframePublisher::is_settled() const { return monotonic_ns() - joined_ns_ >= kSettleNs; }
+
 Expected<void> KeyframePublisher::publish(const DenseKeyframe& keyframe) {
+  watch_subscribers();
+  if (subscribers_ == 0) return {};
+  if (!is_settled()) {
+    return make_error(ExitCode::kUnavailable,
+                      "a map server is joining just now; it gets the next keyframe");
+  }
   auto loan = publisher_.loan();
   if (!loan) return tl::unexpected(loan.error());
   tsg_Keyframe& message = **loan;

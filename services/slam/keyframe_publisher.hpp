@@ -13,13 +13,21 @@ class KeyframePublisher {
  public:
   explicit KeyframePublisher(Bus& bus) : publisher_(bus) {}
 
+  /// Notices map servers that join or leave; to be called several times a second.
+  void watch_subscribers();
+
+  /// kUnavailable where no memory is free, or a map server has joined just now: what is written
+  /// before shared memory knows its reader is lost to it. Without any map server does nothing.
   Expected<void> publish(const DenseKeyframe& keyframe);
 
   [[nodiscard]] std::uint64_t sent() const { return sent_; }
-  [[nodiscard]] bool has_subscriber() const { return publisher_.subscriber_count() > 0; }
 
  private:
+  [[nodiscard]] bool is_settled() const;
+
   Publisher<topics::Keyframe> publisher_;
+  int subscribers_ = 0;
+  std::int64_t joined_ns_ = 0;  // when the last of them did, monotonic
   std::uint64_t sent_ = 0;
 };
 

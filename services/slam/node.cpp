@@ -54,6 +54,7 @@ void SlamNode::run() {
   context_.ready();
   while (!context_.stop.stop_requested()) {
     if (const auto sample = frames_.take(context_.stop, kIdlePeriod)) handle(*sample);
+    keyframes_.watch_subscribers();
     commands_.serve_pending();
     context_.heartbeat();
     if (diagnostics_.is_due()) publish_diagnostics();

@@ -1,31 +1,29 @@
 #include "services/slam/pose_publisher.hpp"
 
-#include <array>
+#include <string>
+#include <vector>
 
 #include "common/bus/convert.hpp"
 
 namespace tsg {
 namespace {
 
-// The wire types want mutable pointers, which the bus only reads (Publisher::publish()).
-// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
-char map_frame[] = "map";
-char odom_frame[] = "odom";
-char camera_frame[] = "camera";
-// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+const std::string kMapFrame = "map";
+const std::string kOdomFrame = "odom";
+const std::string kCameraFrame = "camera";
 
 geometry_msgs_msg_dds__Vector3_ to_ros_vector(const Eigen::Vector3d& vector) {
   return {.x = vector.x(), .y = vector.y(), .z = vector.z()};
 }
 
 geometry_msgs_msg_dds__TransformStamped_ to_ros_stamped(std::int64_t stamp_ns,
-                                                        char* frame,
-                                                        char* child_frame,
+                                                        const std::string& frame,
+                                                        const std::string& child_frame,
                                                         const SE3& T_frame_child) {
   geometry_msgs_msg_dds__TransformStamped_ message{};
   message.header.stamp = to_ros_time(stamp_ns);
-  message.header.frame_id = frame;
-  message.child_frame_id = child_frame;
+  message.header.frame_id = lend(frame);
+  message.child_frame_id = lend(child_frame);
   message.transform = to_ros_transform(T_frame_child);
   return message;
 }
@@ -43,7 +41,7 @@ Expected<void> PosePublisher::publish(const OdometryPose& pose) {
 Expected<void> PosePublisher::publish_pose(const OdometryPose& pose) {
   topics::Pose::Message message{};
   message.header.stamp = to_ros_time(pose.stamp_ns);
-  message.header.frame_id = map_frame;
+  message.header.frame_id = lend(kMapFrame);
   message.pose = to_ros_pose(pose.T_map_camera);
   return pose_.publish(message);
 }
@@ -51,8 +49,8 @@ Expected<void> PosePublisher::publish_pose(const OdometryPose& pose) {
 Expected<void> PosePublisher::publish_odometry(const OdometryPose& pose) {
   topics::Odometry::Message message{};
   message.header.stamp = to_ros_time(pose.stamp_ns);
-  message.header.frame_id = odom_frame;
-  message.child_frame_id = camera_frame;
+  message.header.frame_id = lend(kOdomFrame);
+  message.child_frame_id = lend(kCameraFrame);
   message.pose.pose = to_ros_pose(pose.T_odom_camera);
   if (pose.twist_camera) {
     message.twist.twist.linear = to_ros_vector(pose.twist_camera->head<3>());
@@ -62,13 +60,11 @@ Expected<void> PosePublisher::publish_odometry(const OdometryPose& pose) {
 }
 
 Expected<void> PosePublisher::publish_transforms(const OdometryPose& pose) {
-  std::array transforms = {
-      to_ros_stamped(pose.stamp_ns, map_frame, odom_frame, pose.T_map_odom),
-      to_ros_stamped(pose.stamp_ns, odom_frame, camera_frame, pose.T_odom_camera)};
+  const std::vector transforms = {
+      to_ros_stamped(pose.stamp_ns, kMapFrame, kOdomFrame, pose.T_map_odom),
+      to_ros_stamped(pose.stamp_ns, kOdomFrame, kCameraFrame, pose.T_odom_camera)};
   topics::Transforms::Message message{};
-  message.transforms._buffer = transforms.data();
-  message.transforms._length = transforms.size();
-  message.transforms._maximum = transforms.size();
+  lend(transforms, message.transforms);
   return transforms_.publish(message);
 }
 
