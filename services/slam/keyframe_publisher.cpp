@@ -7,7 +7,7 @@ namespace tsg {
 namespace {
 
 // iceoryx follows a match of DDS within two of its discovery rounds of 100 ms.
-constexpr std::int64_t kSettleNs = 250'000'000;
+constexpr std::chrono::milliseconds kSettleTime{250};
 
 Expected<void> fill(const DenseKeyframe& keyframe, tsg_Keyframe& message) {
   return fill_message(keyframe.frame, message).and_then([&]() -> Expected<void> {
@@ -24,14 +24,20 @@ void KeyframePublisher::watch_subscribers() {
   subscribers_ = present;
 }
 
-bool KeyframePublisher::is_settled() const { return monotonic_ns() - joined_ns_ >= kSettleNs; }
+bool KeyframePublisher::is_settled() const {
+  return std::chrono::nanoseconds(monotonic_ns() - joined_ns_) >= kSettleTime;
+}
 
 Expected<void> KeyframePublisher::publish(const DenseKeyframe& keyframe) {
   watch_subscribers();
   if (subscribers_ == 0) return {};
   if (!is_settled()) {
-    return make_error(ExitCode::kUnavailable,
-                      "a map server is joining just now; it gets the next keyframe");
+    if (sent_ > 0) {
+      return make_error(ExitCode::kUnavailable,
+                        "a map server is joining just now; it gets the next keyframe");
+    }
+    // The first one may wait: there is no track yet that it could hold up.
+    publisher_.wait_for_subscribers(subscribers_, kSettleTime);
   }
   auto loan = publisher_.loan();
   if (!loan) return tl::unexpected(loan.error());
