@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "common/bus/roudi_pools.hpp"  // generated from config/roudi.toml by CMake
@@ -12,10 +13,9 @@ inline constexpr std::size_t kChunkOverheadBytes = 256;
 /// Whether a sample of that size can be had from RouDi as shipped. A larger one would not be
 /// refused: iceoryx aborts the process that asks for it.
 [[nodiscard]] constexpr bool fits_a_pool(std::size_t sample_bytes) {
-  for (const RoudiPool& pool : kRoudiPools) {
-    if (sample_bytes + kChunkOverheadBytes <= pool.chunk_bytes) return true;
-  }
-  return false;
+  return std::any_of(kRoudiPools.begin(), kRoudiPools.end(), [&](const RoudiPool& pool) {
+    return sample_bytes + kChunkOverheadBytes <= pool.chunk_bytes;
+  });
 }
 
 }  // namespace tsg
