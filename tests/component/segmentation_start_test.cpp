@@ -19,9 +19,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
-using testing_support::OnnxWriter;
-using testing_support::TempFolder;
-using testing_support::TinyYoloSeg;
 
 /// Expects the service not to start with `overrides`, on a bus that needs no RouDi.
 void expect_start_error(std::vector<std::string> overrides,

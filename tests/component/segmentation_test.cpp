@@ -27,8 +27,6 @@ namespace tsg::test {
 namespace {
 
 using namespace std::chrono_literals;
-using testing_support::TempFolder;
-using testing_support::TinyYoloSeg;
 
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;

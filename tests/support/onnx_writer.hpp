@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tsg::testing_support {
+namespace tsg::test {
 
 /// Writes small ONNX files, so that tests need no network from elsewhere: the few fields of
 /// onnx.proto that they use, in protobuf's wire format.
@@ -83,4 +83,4 @@ class OnnxWriter {
   std::string metadata_;
 };
 
-}  // namespace tsg::testing_support
+}  // namespace tsg::test

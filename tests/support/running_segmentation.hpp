@@ -30,9 +30,7 @@ class RunningSegmentation {
     const auto& ended = process_.wait(timeout);
     return ended && ended->signal == 0 ? ended->exit_code : -1;
   }
-  [[nodiscard]] std::string output() const {
-    return testing_support::content_of(folder_ / "output");
-  }
+  [[nodiscard]] std::string output() const { return content_of(folder_ / "output"); }
   ChildProcess& process() { return process_; }
 
  private:
@@ -45,7 +43,7 @@ class RunningSegmentation {
     return command;
   }
 
-  testing_support::TempFolder folder_;
+  TempFolder folder_;
   ChildProcess process_;
 };
 

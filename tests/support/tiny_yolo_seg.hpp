@@ -6,7 +6,7 @@
 
 #include "tests/support/onnx_writer.hpp"
 
-namespace tsg::testing_support {
+namespace tsg::test {
 
 /// A network of the YOLO-seg layout for 64 x 32 images, classes "person" and "tv", that finds the
 /// same in every image: a person in the left half, score 0.9 (or whatever `score` is).
@@ -66,4 +66,4 @@ struct TinyYoloSeg {
   }
 };
 
-}  // namespace tsg::testing_support
+}  // namespace tsg::test

@@ -11,8 +11,8 @@
 namespace tsg {
 namespace {
 
+using test::TempFolder;
 using testing::HasSubstr;
-using testing_support::TempFolder;
 
 constexpr std::int64_t kStampNs = 1'700'000'000'033'333'000;
 

@@ -11,11 +11,11 @@
 namespace tsg {
 namespace {
 
+using test::OnnxWriter;
+using test::TempFolder;
 using testing::HasSubstr;
 using testing::Pair;
 using testing::UnorderedElementsAre;
-using testing_support::OnnxWriter;
-using testing_support::TempFolder;
 
 std::string doubling_network() {
   OnnxWriter model;

@@ -12,17 +12,17 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tests/support/shared_data.hpp"
+#include "tests/support/shared_dir.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/tiny_yolo_seg.hpp"
 
 namespace tsg {
 namespace {
 
+using test::OnnxWriter;
+using test::TempFolder;
+using test::TinyYoloSeg;
 using testing::HasSubstr;
-using testing_support::OnnxWriter;
-using testing_support::TempFolder;
-using testing_support::TinyYoloSeg;
 
 RgbdFrame frame_of(const cv::Mat& colour) {
   return {.seq = 17, .stamp_ns = 42, .camera = {}, .colour = colour, .depth = {}};
@@ -82,19 +82,17 @@ TEST(YoloSegProvider, NamesTheFileOfANetworkOfAnotherLayout) {
 class YoloV8n : public testing::Test {
  protected:
   void SetUp() override {
-    if (!std::filesystem::exists(model_file()) || !std::filesystem::exists(frames_folder())) {
-      GTEST_SKIP() << "no network or no frames in " << testing_support::shared_dir()
-                   << ": set TSG_SHARED_DIR";
-    }
+    TSG_REQUIRE_SHARED("models/yolov8n-seg/model.onnx");
+    TSG_REQUIRE_SHARED("data/tum_bits/fr3_walking_xyz_frames");
     std::ifstream file(model_file().replace_filename("expected.json"));
     expected_ = nlohmann::json::parse(file);
   }
 
   static std::filesystem::path model_file() {
-    return testing_support::shared_dir() / "models/yolov8n-seg/model.onnx";
+    return test::shared_dir() / "models/yolov8n-seg/model.onnx";
   }
   static std::filesystem::path frames_folder() {
-    return testing_support::shared_dir() / "data/tum_bits/fr3_walking_xyz_frames";
+    return test::shared_dir() / "data/tum_bits/fr3_walking_xyz_frames";
   }
 
   nlohmann::json expected_;
