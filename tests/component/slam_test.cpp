@@ -16,8 +16,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
-using testing_support::content_of;
-using testing_support::TempFolder;
 
 constexpr std::chrono::seconds kPatience{20};  // sanitizers on a busy machine
 
