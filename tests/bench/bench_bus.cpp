@@ -100,6 +100,7 @@ void hand_over(benchmark::State& state, const std::string& name, Way way) {
 
 template <typename Topic>
 void add_benchmark(const std::string& name, Way way) {
+  // NOLINTNEXTLINE(clang-analyzer-cplusplus.NewDeleteLeaks): the library owns its benchmarks
   benchmark::RegisterBenchmark(
       name.c_str(), [name, way](benchmark::State& state) { hand_over<Topic>(state, name, way); })
       ->Iterations(kFrames)

@@ -26,7 +26,7 @@ inline const dds_topic_descriptor_t& descriptor<tsg_bench_VgaFrame>() {
 
 namespace bench {
 
-inline constexpr std::size_t kPixels = 640 * 480;
+inline constexpr std::size_t kPixels = std::size_t{640} * 480;
 
 /// The wire type that the services use: VGA images in the first part of larger arrays.
 using ServiceFrame = topics::Rgbd;
@@ -60,6 +60,8 @@ class ReaderProcess {
   ~ReaderProcess();
   ReaderProcess(const ReaderProcess&) = delete;
   ReaderProcess& operator=(const ReaderProcess&) = delete;
+  ReaderProcess(ReaderProcess&&) = delete;
+  ReaderProcess& operator=(ReaderProcess&&) = delete;
 
   /// The receipt of the sample just published; nothing where it is lost.
   [[nodiscard]] std::optional<Receipt> wait_for_receipt() const;

@@ -11,6 +11,8 @@
 
 namespace tsg::test {
 
+inline constexpr std::size_t kVgaPixels = std::size_t{640} * 480;
+
 /// Text that lives as long as the program.
 inline char* text(const char* literal) {
   return const_cast<char*>(literal);  // NOLINT(*-const-cast): publish() only reads
@@ -32,8 +34,8 @@ inline void fill_example(tsg_RgbdFrame& message) {
   message.header = header();
   message.intrinsics = {640, 480, 517.3, 516.5, 318.6, 255.3, {0.1, 0.2, 0.3, 0.4, 0.5}};
   message.depth_units_per_metre = 5000.0;
-  for (std::size_t i = 0; i < 640 * 480; ++i) message.depth[i] = static_cast<std::uint16_t>(i);
-  for (std::size_t i = 0; i < 3 * 640 * 480; ++i) message.colour[i] = static_cast<std::uint8_t>(i);
+  for (std::size_t i = 0; i < kVgaPixels; ++i) message.depth[i] = static_cast<std::uint16_t>(i);
+  for (std::size_t i = 0; i < 3 * kVgaPixels; ++i) message.colour[i] = static_cast<std::uint8_t>(i);
 }
 
 inline void fill_example(tsg_InstanceMask& message) {
