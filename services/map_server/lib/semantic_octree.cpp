@@ -88,9 +88,7 @@ struct SemanticOctree::Update {
 };
 
 SemanticOctree::SemanticOctree(const OctreeConfig& config)
-    : OccupancyOcTreeBase<SemanticNode>(config.resolution_m),
-      config_(config),
-      seen_leaves_(config.resolution_m) {
+    : OccupancyOcTreeBase<SemanticNode>(config.resolution_m), config_(config) {
   setProbHit(config.hit_probability);
   setProbMiss(config.miss_probability);
   setClampingThresMin(config.min_probability);
@@ -101,16 +99,16 @@ void SemanticOctree::integrate(const Eigen::Vector3d& origin,
                                const Cloud& points,
                                const std::vector<Eigen::Vector3f>& free_ends,
                                const ClassTable& classes) {
-  seen_leaves_.clear();
-  for (const CloudPoint& point : points) seen_leaves_.add(point);
-  const LeafBatch batch(seen_leaves_, free_ends, origin, resolution);
+  VoxelGrid leaves(resolution);
+  for (const CloudPoint& point : points) leaves.add(point);
+  const LeafBatch batch(leaves, free_ends, origin, resolution);
   for (const LeafBatch::Block& block : batch.blocks()) {
     const Eigen::Vector3i first = block.first_cell.array() + static_cast<int>(tree_max_val);
     Update update{
         block,
         {static_cast<octomap::key_type>(first.x()), static_cast<octomap::key_type>(first.y()),
          static_cast<octomap::key_type>(first.z())},
-        seen_leaves_,
+        leaves,
         classes};
     const bool is_new = root == nullptr;
     if (is_new) {

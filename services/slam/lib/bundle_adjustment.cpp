@@ -10,6 +10,7 @@
 namespace tsg {
 namespace {
 
+constexpr double kHuber = 2.5;               // standard deviations in three dimensions
 constexpr double kFunctionTolerance = 1e-4;  // relative; further down is below the noise
 
 class StopCallback final : public ceres::IterationCallback {
@@ -40,8 +41,8 @@ void build(const ObservationModel& model,
            std::vector<PoseBlock>& poses,
            ceres::Problem& solver_problem,
            ceres::ParameterBlockOrdering& ordering) {
-  auto* manifold = new LeftTwistManifold;                     // owned by solver_problem
-  auto* loss = new ceres::HuberLoss(std::sqrt(kChiSquare3));  // owned by solver_problem
+  auto* manifold = new LeftTwistManifold;     // owned by solver_problem
+  auto* loss = new ceres::HuberLoss(kHuber);  // owned by solver_problem
   poses.reserve(problem.cameras.size());
   for (const BundleProblem::Camera& camera : problem.cameras) {
     poses.push_back(to_pose_block(camera.T_camera_world));

@@ -28,8 +28,8 @@ struct BundleProblem {
 
 struct BundleLimits {
   int max_iterations = 10;
-  double time_budget_s = 0.0;       ///< 0 = none
-  std::function<bool()> must_stop;  ///< asked after each iteration; may be empty
+  double time_budget_s = 0.0;            ///< 0 = none
+  std::function<bool()> must_stop = {};  ///< asked after each iteration; may be empty
 };
 
 struct BundleSummary {

@@ -7,13 +7,14 @@
 #include <opencv2/features2d.hpp>
 #include <tuple>
 
+#include "common/core/check.hpp"
+
 namespace tsg {
 namespace {
 
-constexpr int kTile = 48;              // pixels; about as large as the gaps that hurt tracking
-constexpr int kBareCorners = 2;        // a tile with fewer is searched again with less contrast
-constexpr int kFastRadius = 3;         // FAST reads a circle of this radius
-constexpr double kMaxCellShare = 1.0;  // cells per wanted corner
+constexpr int kTile = 48;        // pixels; about as large as the gaps that hurt tracking
+constexpr int kBareCorners = 2;  // a tile with fewer is searched again with less contrast
+constexpr int kFastRadius = 3;   // FAST reads a circle of this radius
 
 struct Ranked {
   int rank;  ///< 0 = strongest of its cell
@@ -32,11 +33,11 @@ bool comes_first(const Ranked& a, const Ranked& b) {
 const std::vector<cv::KeyPoint>& CornerDetector::detect(const cv::Mat& image, int margin) {
   corners_.clear();
   const cv::Rect inside(margin, margin, image.cols - 2 * margin, image.rows - 2 * margin);
+  TSG_CHECK(margin >= kFastRadius);
   if (inside.width <= 0 || inside.height <= 0) return corners_;
   // FAST leaves its radius free at the border of what it gets.
-  const int reach = std::min(margin, kFastRadius);
-  const cv::Rect searched(inside.x - reach, inside.y - reach, inside.width + 2 * reach,
-                          inside.height + 2 * reach);
+  const cv::Rect searched(inside.x - kFastRadius, inside.y - kFastRadius,
+                          inside.width + 2 * kFastRadius, inside.height + 2 * kFastRadius);
   cv::FAST(image(searched), corners_, threshold_, true);
   const cv::Point2f offset(static_cast<float>(searched.x), static_cast<float>(searched.y));
   for (cv::KeyPoint& corner : corners_) corner.pt += offset;
@@ -53,15 +54,14 @@ void CornerDetector::search_bare_tiles(const cv::Mat& image, const cv::Rect& ins
     const int row = (static_cast<int>(corner.pt.y) - inside.y) / kTile;
     ++tile_counts_[static_cast<std::size_t>(row * columns + column)];
   }
+  const cv::Rect inside_with_rim(inside.x - kFastRadius, inside.y - kFastRadius,
+                                 inside.width + 2 * kFastRadius, inside.height + 2 * kFastRadius);
   for (int tile = 0; tile < columns * rows; ++tile) {
     if (tile_counts_[static_cast<std::size_t>(tile)] >= kBareCorners) continue;
-    const cv::Rect core(inside.x + tile % columns * kTile, inside.y + tile / columns * kTile, kTile,
-                        kTile);
-    const cv::Rect searched =
-        cv::Rect(core.x - kFastRadius, core.y - kFastRadius, kTile + 2 * kFastRadius,
-                 kTile + 2 * kFastRadius) &
-        cv::Rect(inside.x - kFastRadius, inside.y - kFastRadius, inside.width + 2 * kFastRadius,
-                 inside.height + 2 * kFastRadius);
+    const cv::Rect tile_with_rim(inside.x + tile % columns * kTile - kFastRadius,
+                                 inside.y + tile / columns * kTile - kFastRadius,
+                                 kTile + 2 * kFastRadius, kTile + 2 * kFastRadius);
+    const cv::Rect searched = tile_with_rim & inside_with_rim;
     cv::FAST(image(searched), found_, min_threshold_, true);
     for (cv::KeyPoint& corner : found_) {
       if (corner.response >= static_cast<float>(threshold_)) continue;  // known already
@@ -75,7 +75,7 @@ void CornerDetector::search_bare_tiles(const cv::Mat& image, const cv::Rect& ins
 void keep_spread(std::vector<cv::KeyPoint>& corners, const cv::Size& size, int wanted) {
   if (static_cast<int>(corners.size()) <= wanted) return;
   const double area = static_cast<double>(size.width) * size.height;
-  const int cell = std::max(1, static_cast<int>(std::sqrt(area / (kMaxCellShare * wanted))));
+  const int cell = std::max(1, static_cast<int>(std::sqrt(area / wanted)));
   const int columns = size.width / cell + 1;
   const int rows = size.height / cell + 1;
   std::vector<Ranked> ranked(corners.size());

@@ -14,7 +14,7 @@ class CornerDetector {
   CornerDetector(int threshold, int min_threshold)
       : threshold_(threshold), min_threshold_(min_threshold) {}
 
-  /// All corners at least `margin` pixels inside `image` (CV_8UC1), each the best of its 3x3
+  /// All corners at least `margin` (>= 3) pixels inside `image` (CV_8UC1), each the best of its 3x3
   /// neighbourhood. Valid until the next call.
   const std::vector<cv::KeyPoint>& detect(const cv::Mat& image, int margin);
 

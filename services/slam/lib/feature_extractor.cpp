@@ -83,21 +83,10 @@ void FeatureExtractor::extract_level(std::size_t level,
                                      const cv::Mat& verdicts,
                                      Features& features) {
   const cv::Mat& image = pyramid_[level];
-  const double scale_x = static_cast<double>(camera_.width) / image.cols;
-  const double scale_y = static_cast<double>(camera_.height) / image.rows;
-  // Centres of pixels at integers: a level's pixel (0, 0) covers more than that of level 0.
-  const auto to_level_0 = [&](const cv::Point2f& point) {
-    return Eigen::Vector2f(static_cast<float>((point.x + 0.5) * scale_x - 0.5),
-                           static_cast<float>((point.y + 0.5) * scale_y - 0.5));
-  };
-  const auto raw_pixel = [&](const Eigen::Vector2f& pixel) {
-    return cv::Point(std::clamp(cvRound(pixel.x()), 0, camera_.width - 1),
-                     std::clamp(cvRound(pixel.y()), 0, camera_.height - 1));
-  };
   corners_.clear();
   for (const cv::KeyPoint& corner : detector_.detect(image, kMargin)) {
-    const bool dynamic =
-        verdict_at(verdicts, raw_pixel(to_level_0(corner.pt))) == FeatureVerdict::kDynamic;
+    const bool dynamic = verdict_at(verdicts, raw_pixel(to_level_0(corner.pt, image.size()))) ==
+                         FeatureVerdict::kDynamic;
     if (dynamic) ++features.counts.dynamic;
     if (!dynamic) corners_.push_back(corner);
   }
@@ -107,7 +96,7 @@ void FeatureExtractor::extract_level(std::size_t level,
     const int x = static_cast<int>(corner.pt.x);
     const int y = static_cast<int>(corner.pt.y);
     Feature feature;
-    feature.pixel = to_level_0(corner.pt);
+    feature.pixel = to_level_0(corner.pt, image.size());
     const cv::Point raw = raw_pixel(feature.pixel);
     feature.raw_x = static_cast<std::int16_t>(raw.x);
     feature.raw_y = static_cast<std::int16_t>(raw.y);
@@ -117,6 +106,19 @@ void FeatureExtractor::extract_level(std::size_t level,
     features.items.push_back(feature);
     features.descriptors.push_back(oriented_brief(blurred_, x, y, feature.angle));
   }
+}
+
+/// Centres of pixels are at integers, so a level's pixel (0, 0) lies right below that of level 0.
+Eigen::Vector2f FeatureExtractor::to_level_0(const cv::Point2f& point, const cv::Size& size) const {
+  const double scale_x = static_cast<double>(camera_.width) / size.width;
+  const double scale_y = static_cast<double>(camera_.height) / size.height;
+  return {static_cast<float>((point.x + 0.5) * scale_x - 0.5),
+          static_cast<float>((point.y + 0.5) * scale_y - 0.5)};
+}
+
+cv::Point FeatureExtractor::raw_pixel(const Eigen::Vector2f& pixel) const {
+  return {std::clamp(cvRound(pixel.x()), 0, camera_.width - 1),
+          std::clamp(cvRound(pixel.y()), 0, camera_.height - 1)};
 }
 
 void FeatureExtractor::undistort(Features& features) const {

@@ -15,7 +15,7 @@ constexpr float kMovedDepthError = 0.1F;  // 1/m: the prediction may be off by 1
 constexpr double kMapDepthSigmas = 12.0;  // of inverse depth: the pose is nearly right
 constexpr MatchLimits kLastFrameLimits{.max_distance = 80, .max_ratio = 0.95F};
 constexpr MatchLimits kLocalMapLimits{.max_distance = 80, .max_ratio = 0.85F};
-constexpr MatchLimits kKeyframeLimits{.max_distance = 70, .max_ratio = 0.8F};
+constexpr MatchLimits kKeyframeLimits{.max_distance = 70, .max_ratio = 0.9F};
 
 struct LastPoint {
   int feature = 0;

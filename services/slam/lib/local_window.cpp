@@ -96,9 +96,8 @@ void LocalWindow::write_back(Map& map, const ObservationModel& model) const {
   for (const BundleProblem::Sighting& sighting : problem_.sightings) {
     const BundleProblem::Camera& camera = problem_.cameras[sighting.camera];
     const Eigen::Vector3d p_camera = camera.T_camera_world * problem_.points[sighting.point];
-    const bool fits =
-        p_camera.z() > kMinDepth && model.residual(sighting.observation, p_camera).squaredNorm() <=
-                                        sighting.observation.chi_square_limit();
+    const bool fits = p_camera.z() > kMinDepth &&
+                      ObservationModel::is_inlier(model.residual(sighting.observation, p_camera));
     if (!fits) map.remove_observation(points_[sighting.point], keyframes_[sighting.camera]);
   }
   for (const PointId id : points_) {

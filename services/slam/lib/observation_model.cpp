@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-
 namespace tsg {
+namespace {
+
+constexpr double kPixelChiSquare = 9.21;   // 99 % quantile for two dimensions
+constexpr double kMaxDepthResidual = 5.0;  // standard deviations: sensors err in heavy tails
+
+}  // namespace
 
 ObservationModel::ObservationModel(const CameraModel& camera, const SlamConfig& config)
     : camera_(camera),
@@ -27,6 +32,11 @@ Eigen::Vector3d ObservationModel::residual(const PointObservation& observation,
                      ? inverse_depth_weight_ * (1.0 / p_camera.z() - observation.inverse_depth)
                      : 0.0;
   return residual;
+}
+
+bool ObservationModel::is_inlier(const Eigen::Vector3d& residual) {
+  return residual.head<2>().squaredNorm() <= kPixelChiSquare &&
+         std::abs(residual.z()) <= kMaxDepthResidual;
 }
 
 Eigen::Matrix3d ObservationModel::point_jacobian(const PointObservation& observation,

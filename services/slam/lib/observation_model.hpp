@@ -9,10 +9,6 @@
 
 namespace tsg {
 
-/// 95 % quantiles of chi-square: a sighting beyond is an outlier.
-inline constexpr double kChiSquare2 = 5.991;  ///< pixel only
-inline constexpr double kChiSquare3 = 7.815;  ///< pixel and inverse depth
-
 /// A sighting of a point: where, and how far if the sensor knows.
 struct PointObservation {
   Eigen::Vector2d pixel;       ///< undistorted
@@ -20,7 +16,6 @@ struct PointObservation {
   double pixel_weight = 1.0;   ///< 1 / standard deviation, 1/pixels
 
   [[nodiscard]] bool has_depth() const { return inverse_depth > 0.0; }
-  [[nodiscard]] double chi_square_limit() const { return has_depth() ? kChiSquare3 : kChiSquare2; }
 };
 
 using Jacobian36 = Eigen::Matrix<double, 3, 6>;
@@ -39,6 +34,10 @@ class ObservationModel {
   /// the third is 0 where depth was not measured. `p_camera.z()` must be positive.
   [[nodiscard]] Eigen::Vector3d residual(const PointObservation& observation,
                                          const Eigen::Vector3d& p_camera) const;
+
+  /// Whether a residual is small enough for noise. Pixel and depth are judged apart: together, a
+  /// good one would make up for a bad one.
+  [[nodiscard]] static bool is_inlier(const Eigen::Vector3d& residual);
 
   /// Derivative of residual() by the point.
   [[nodiscard]] Eigen::Matrix3d point_jacobian(const PointObservation& observation,

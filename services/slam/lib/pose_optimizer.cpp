@@ -103,9 +103,8 @@ int classify(const ObservationModel& model,
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const PointObservation& observation = matches[i].observation;
     const Eigen::Vector3d p_camera = T_camera_world * matches[i].p_world;
-    is_inlier[i] =
-        p_camera.z() >= kMinDepth &&
-        model.residual(observation, p_camera).squaredNorm() <= observation.chi_square_limit();
+    is_inlier[i] = p_camera.z() >= kMinDepth &&
+                   ObservationModel::is_inlier(model.residual(observation, p_camera));
     if (is_inlier[i]) ++inliers;
   }
   return inliers;

@@ -14,7 +14,7 @@ struct FeatureConfig {
   int min_fast_threshold = 7;  // where a cell of the image has no such corner
   double min_depth_m = 0.3;    // nearer than a Kinect-like sensor can measure
   double max_depth_m = 8.0;    // beyond it the sensor's bias exceeds its noise model
-  double inverse_depth_sigma = 0.0025;  // 1/m; structured light: sigma_z = this * z^2
+  double inverse_depth_sigma = 0.003;  // 1/m; structured light: sigma_z = this * z^2
 
   [[nodiscard]] std::vector<std::string> problems() const;
 };
@@ -38,12 +38,12 @@ struct DynamicFilterConfig {
 
 /// When a frame counts as tracked, and when it becomes a keyframe.
 struct TrackerConfig {
-  int min_features_to_start = 100;     // with depth; fewer make a map that tracking soon falls off
-  int min_inliers = 20;                // 6 unknowns; fewer agree by chance in repetitive texture
-  double pixel_sigma = 0.8;            // of a corner in level 0, pixels
-  double keyframe_overlap = 0.7;       // insert below this share of the features found in the map
-  double keyframe_view_change = 0.15;  // insert beyond it: translation / depth of scene, or radians
-  double standing_still = 0.02;        // never insert below it, the same measure
+  int min_features_to_start = 100;    // with depth; fewer make a map that tracking soon falls off
+  int min_inliers = 20;               // 6 unknowns; fewer agree by chance in repetitive texture
+  double pixel_sigma = 0.8;           // of a corner in level 0, pixels
+  double keyframe_overlap = 0.8;      // insert below this share of the features found in the map
+  double keyframe_view_change = 0.1;  // insert beyond it: translation / depth of scene, or radians
+  double standing_still = 0.02;       // never insert below it, the same measure
 
   [[nodiscard]] std::vector<std::string> problems() const;
 };

@@ -18,7 +18,7 @@ namespace {
 constexpr double kPredictedRadius = 8.0;         // pixels: the motion model's usual error
 constexpr double kSurpriseRadius = 24.0;         // pixels: when the camera was jerked
 constexpr double kMapRadius = 4.0;               // pixels: after a first pose from the last frame
-constexpr double kKeyframeRadius = 8.0;          // pixels: after a first pose from a keyframe
+constexpr double kKeyframeRadius = 10.0;         // pixels: after a first pose from a keyframe
 constexpr int kEnoughMatches = 3;                // times min_inliers; fewer: search on more widely
 constexpr std::size_t kKeyframesPerAttempt = 4;  // when lost; bounds the time of a frame
 constexpr int kEstablished = 2;        // observations of a point that is no mere candidate
@@ -153,10 +153,16 @@ std::optional<Fix> Tracker::Impl::fix_by_keyframe(const FrameSearch& search,
   begin(TrackingStage::kMatch);
   FrameMatches matches = search.match_keyframe(keyframe);
   begin(TrackingStage::kOptimise);
-  const auto estimate =
-      solve_pnp(model, matches.to_point_matches(model), config.tracker.min_inliers);
+  const int first_inliers = config.tracker.min_inliers / 2;
+  const auto estimate = solve_pnp(model, matches.to_point_matches(model), first_inliers);
   if (!estimate) return std::nullopt;
-  const PoseEstimate refined = matches.optimise(model, estimate->T_camera_world);
+  // Few, but they tell where to look for more.
+  const PoseEstimate first = matches.optimise(model, estimate->T_camera_world);
+  begin(TrackingStage::kMatch);
+  search.match_local_map(first.T_camera_world, kKeyframeRadius, matches);
+  begin(TrackingStage::kOptimise);
+  const PoseEstimate refined = matches.optimise(model, first.T_camera_world);
+  if (refined.inliers < config.tracker.min_inliers) return std::nullopt;
   return Fix{refined.T_camera_world, std::move(matches), refined.inliers};
 }
 

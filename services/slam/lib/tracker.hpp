@@ -63,7 +63,8 @@ class Tracker {
   [[nodiscard]] std::shared_ptr<const Features> extract(const RgbdFrame& frame,
                                                         const InstanceSegmentation* mask);
 
-  /// The pose of the frame that `features` belong to. Call with the frames in their order.
+  /// The pose of the frame that `features` belong to. Call with the frames in their order. A
+  /// keyframe that is proposed must be inserted: no other is until `map` shows it.
   [[nodiscard]] TrackResult track(const std::shared_ptr<const Features>& features,
                                   const LocalMapSnapshot& map);
 

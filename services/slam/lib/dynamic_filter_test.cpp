@@ -1,0 +1,113 @@
+#include "services/slam/lib/dynamic_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include "services/slam/lib/dynamic_classes.hpp"
+#include "services/slam/lib/synthetic_scene.hpp"
+
+namespace tsg {
+namespace {
+
+constexpr double kWalkingSpeed = 1.0;  // m/s along x
+
+/// A person-sized board that walks in front of a wall.
+synthetic::Panel walker(double x) {
+  return {.z = 2.0, .corner = {x, -0.8}, .extent = {0.5, 1.6}, .texture_seed = 9, .label = 1};
+}
+
+class DynamicFilterTest : public testing::Test {
+ protected:
+  DynamicFilterTest()
+      : scene_({{.z = 3.0, .corner = {-4.0, -3.0}, .extent = {8.0, 6.0}, .texture_seed = 1},
+                walker(-0.5)}) {}
+
+  RgbdFrame render(std::uint64_t seq) {
+    const double seconds = static_cast<double>(seq) / 30.0;
+    scene_.panel(1) = walker(-0.5 + kWalkingSpeed * seconds);
+    return scene_.render(seq, SE3());
+  }
+  InstanceSegmentation mask_of(const RgbdFrame& frame, const std::string& class_name = "person") {
+    return scene_.mask(frame, SE3(), {class_name});
+  }
+
+  struct Shares {
+    double body = 0.0;        ///< of the walker's pixels that are judged dynamic
+    double background = 0.0;  ///< of all other pixels
+  };
+  Shares shares(const RgbdFrame& frame, const cv::Mat& verdicts) {
+    const cv::Mat truth = mask_of(frame).labels == 1;
+    const cv::Mat dynamic = verdicts == static_cast<double>(FeatureVerdict::kDynamic);
+    const cv::Mat hit = dynamic & truth;
+    const cv::Mat outside = dynamic & ~truth;
+    return {static_cast<double>(cv::countNonZero(hit)) / cv::countNonZero(truth),
+            static_cast<double>(cv::countNonZero(outside)) / cv::countNonZero(~truth)};
+  }
+
+  DynamicFilter filter_{DynamicFilterConfig{}, synthetic::camera()};
+  synthetic::Scene scene_;
+};
+
+TEST_F(DynamicFilterTest, MarksADynamicInstanceAndLittleElse) {
+  const RgbdFrame frame = render(0);
+  const InstanceSegmentation mask = mask_of(frame);
+  const Shares marked = shares(frame, filter_.judge(frame, &mask, SE3()));
+  EXPECT_EQ(marked.body, 1.0);
+  EXPECT_LT(marked.background, 0.03);
+}
+
+TEST_F(DynamicFilterTest, KeepsWhatOnlyMightMoveAndWhatStands) {
+  const RgbdFrame frame = render(0);
+  const InstanceSegmentation chair = mask_of(frame, "chair");
+  const cv::Mat verdicts = filter_.judge(frame, &chair, SE3());
+  EXPECT_EQ(shares(frame, verdicts).body, 0.0);
+  EXPECT_GT(cv::countNonZero(verdicts == static_cast<double>(FeatureVerdict::kPotentiallyDynamic)),
+            1000);
+  const InstanceSegmentation couch = mask_of(frame, "couch");
+  EXPECT_EQ(cv::countNonZero(filter_.judge(frame, &couch, SE3())), 0);
+}
+
+TEST_F(DynamicFilterTest, DoesNotBelieveAnUncertainInstance) {
+  const RgbdFrame frame = render(0);
+  InstanceSegmentation mask = mask_of(frame);
+  mask.instances[0].score = 0.1F;
+  EXPECT_EQ(cv::countNonZero(filter_.judge(frame, &mask, SE3())), 0);
+}
+
+TEST_F(DynamicFilterTest, CarriesAMaskSixFramesForwardAndKeepsTheWallBesideIt) {
+  const InstanceSegmentation first = mask_of(render(0));
+  const InstanceSegmentation late = mask_of(render(6));
+  cv::Mat verdicts;
+  for (std::uint64_t seq = 0; seq <= 12; ++seq) {
+    verdicts = filter_.judge(render(seq), seq < 12 ? &first : &late, SE3());
+    filter_.note_pose(seq, SE3());
+  }
+  const Shares marked = shares(render(12), verdicts);
+  EXPECT_GT(marked.body, 0.97);
+  EXPECT_LT(marked.background, 0.06);
+}
+
+TEST_F(DynamicFilterTest, GrowsAMaskWhoseFrameItNeverSaw) {
+  const InstanceSegmentation mask = mask_of(render(0));
+  const RgbdFrame now = render(5);
+  EXPECT_EQ(shares(now, filter_.judge(now, &mask, SE3())).body, 1.0);
+}
+
+TEST_F(DynamicFilterTest, SaysNothingWithoutAMaskOrWithOneTooOld) {
+  const InstanceSegmentation mask = mask_of(render(0));
+  EXPECT_TRUE(filter_.judge(render(0), nullptr, SE3()).empty());
+  EXPECT_TRUE(filter_.judge(render(16), &mask, SE3()).empty());
+}
+
+TEST_F(DynamicFilterTest, TellsPointsOnTheBodyFromThoseBehindIt) {
+  const RgbdFrame frame = render(0);
+  const InstanceSegmentation mask = mask_of(frame);
+  (void)filter_.judge(frame, &mask, SE3());
+  filter_.note_pose(0, SE3());
+  EXPECT_TRUE(filter_.has_new_mask());
+  EXPECT_TRUE(filter_.was_dynamic({-0.25, 0.0, 2.0}));
+  EXPECT_FALSE(filter_.was_dynamic({-0.375, 0.0, 3.0}));  // same pixel, on the wall
+  EXPECT_FALSE(filter_.was_dynamic({0.5, 0.0, 2.0}));     // same depth, beside
+}
+
+}  // namespace
+}  // namespace tsg
