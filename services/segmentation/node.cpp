@@ -7,9 +7,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stop_token>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -47,12 +47,6 @@ Expected<std::unique_ptr<SegmentationProvider>> make_provider(const Segmentation
   }
   if (config.network.model.file.empty()) return not_set("model.file", config.provider);
   return YoloSegProvider::make(config.network);
-}
-
-template <std::size_t N>
-void copy_name(std::string_view name, char (&field)[N]) {
-  const std::size_t length = std::min(name.size(), N - 1);
-  std::fill(std::copy_n(name.data(), length, field), field + N, '\0');
 }
 
 std::string with_one_decimal(double value) {
@@ -124,7 +118,8 @@ Expected<void> SegmentationNode::publish(const SegmentationResult& result) {
   if (!loan) return tl::unexpected(loan.error());
   tsg_InstanceMask& message = **loan;
   if (auto filled = fill_message(result.segmentation, message); !filled) return filled;
-  copy_name(provider_->name(), message.model_name);
+  std::fill(std::begin(message.model_name), std::end(message.model_name), '\0');
+  provider_->name().copy(message.model_name, sizeof(message.model_name) - 1);
   message.inference_ns = result.times.total_ns();
   return masks_.publish(std::move(*loan));
 }

@@ -58,9 +58,9 @@ Rgb palette_colour(std::size_t index) {
   };
   constexpr std::array<Shade, kShades> kShadeTable{
       {{0.85, 0.95}, {0.50, 0.95}, {0.90, 0.65}, {0.50, 0.70}}};
-  // 7 is coprime to the number of hues, so neighbours in COCO's order lie far apart on the wheel;
+  // 11 is coprime to the number of hues, so neighbours in COCO's order lie far apart on the wheel;
   // every lap around the wheel moves on to the next shade.
-  const std::size_t hue = index * 7 % kHues;
+  const std::size_t hue = index * 11 % kHues;
   const std::size_t shade = (index + index / kHues) % kShades;
   return from_hsv(static_cast<double>(hue) / kHues, kShadeTable[shade].saturation,
                   kShadeTable[shade].value);

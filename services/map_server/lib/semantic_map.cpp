@@ -52,6 +52,7 @@ std::vector<std::string> MapConfig::problems() const {
 SemanticMap::SemanticMap(const MapConfig& config)
     : config_(config),
       projector_(config.depth, config.exclusion),
+      keyframe_grid_(config.cloud_voxel_m),
       cloud_(config.cloud_voxel_m),
       octree_(config.octree) {}
 
@@ -62,7 +63,7 @@ Expected<Integration> SemanticMap::integrate(const Keyframe& keyframe) {
   KeyframeCloud seen = projector_.project(keyframe, classes_);
   count_instances(keyframe, seen);
   const std::size_t points_raw = seen.points.size();
-  Cloud points = voxel_filter(seen.points, config_.cloud_voxel_m);
+  Cloud points = voxel_filter(seen.points, keyframe_grid_);
 
   // Eq. 7: each keyframe's cloud goes to its place in the common frame.
   const Eigen::Isometry3f T_world_camera = keyframe.T_world_camera.to_isometry().cast<float>();

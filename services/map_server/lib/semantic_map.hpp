@@ -20,7 +20,7 @@ struct MapConfig {
   DepthFilterConfig depth;
   ExclusionConfig exclusion;
   OctreeConfig octree;
-  double cloud_voxel_m = 0.01;  ///< about the distance of pixels at 5 m
+  double cloud_voxel_m = 0.02;  ///< as fine as the depth of a Kinect is good at 3 m
   double max_extent_m = 500.0;  ///< a camera farther from the origin is a mistake
 
   [[nodiscard]] std::vector<std::string> problems() const;
@@ -84,6 +84,7 @@ class SemanticMap {
   MapConfig config_;
   ClassTable classes_;
   BackProjector projector_;
+  VoxelGrid keyframe_grid_;  // of the keyframe being integrated, in its own frame
   VoxelGrid cloud_;
   SemanticOctree octree_;
   std::size_t keyframes_ = 0;

@@ -130,9 +130,9 @@ TEST_F(RoomTest, CountsPointsBeforeAndAfterFiltering) {
   const MapSummary summary = map_.summary();
   EXPECT_EQ(summary.keyframes, 2U);
   EXPECT_EQ(summary.points_raw, 2 * 320U * 240U);
-  // The second look at the same wall adds no point: 3.73 m x 2.80 m of 1 cm voxels.
+  // The second look at the same wall adds no point: 3.73 m x 2.80 m of 2 cm voxels.
   EXPECT_EQ(summary.points, first->points);
-  EXPECT_NEAR(double(summary.points), 320 * 240, 5000);  // a pixel is 1.17 cm here
+  EXPECT_NEAR(double(summary.points), 187 * 140, 500);
 }
 
 TEST_F(RoomTest, RefusesAKeyframeThatIsNotSoundAndStaysAsItWas) {

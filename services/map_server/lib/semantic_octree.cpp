@@ -88,7 +88,9 @@ struct SemanticOctree::Update {
 };
 
 SemanticOctree::SemanticOctree(const OctreeConfig& config)
-    : OccupancyOcTreeBase<SemanticNode>(config.resolution_m), config_(config) {
+    : OccupancyOcTreeBase<SemanticNode>(config.resolution_m),
+      config_(config),
+      seen_leaves_(config.resolution_m) {
   setProbHit(config.hit_probability);
   setProbMiss(config.miss_probability);
   setClampingThresMin(config.min_probability);
@@ -99,16 +101,16 @@ void SemanticOctree::integrate(const Eigen::Vector3d& origin,
                                const Cloud& points,
                                const std::vector<Eigen::Vector3f>& free_ends,
                                const ClassTable& classes) {
-  VoxelGrid leaves(resolution);
-  for (const CloudPoint& point : points) leaves.add(point);
-  const LeafBatch batch(leaves, free_ends, origin, resolution);
+  seen_leaves_.clear();
+  for (const CloudPoint& point : points) seen_leaves_.add(point);
+  const LeafBatch batch(seen_leaves_, free_ends, origin, resolution);
   for (const LeafBatch::Block& block : batch.blocks()) {
     const Eigen::Vector3i first = block.first_cell.array() + static_cast<int>(tree_max_val);
     Update update{
         block,
         {static_cast<octomap::key_type>(first.x()), static_cast<octomap::key_type>(first.y()),
          static_cast<octomap::key_type>(first.z())},
-        leaves,
+        seen_leaves_,
         classes};
     const bool is_new = root == nullptr;
     if (is_new) {

@@ -11,6 +11,7 @@
 #include "services/map_server/lib/class_table.hpp"
 #include "services/map_server/lib/cloud.hpp"
 #include "services/map_server/lib/leaf_batch.hpp"
+#include "services/map_server/lib/voxel_grid.hpp"
 
 namespace tsg {
 
@@ -99,6 +100,7 @@ class SemanticOctree : public octomap::OccupancyOcTreeBase<SemanticNode> {
   [[nodiscard]] bool is_surely_free(const SemanticNode* node) const;
 
   OctreeConfig config_;
+  VoxelGrid seen_leaves_;  // of the keyframe being integrated
 };
 
 }  // namespace tsg

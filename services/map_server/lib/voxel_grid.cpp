@@ -1,7 +1,5 @@
 #include "services/map_server/lib/voxel_grid.hpp"
 
-#include <cmath>
-
 namespace tsg {
 namespace {
 
@@ -10,15 +8,29 @@ constexpr std::int64_t kOffset = std::int64_t{1} << (kBitsPerAxis - 1);
 constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kBitsPerAxis) - 1;
 constexpr std::size_t kFirstSlots = 1024;
 
-/// Finaliser of MurmurHash3: neighbouring cells land far apart.
+/// Cells of one cube of 4 a side lie together, so that neighbours share cache lines; the cubes are
+/// spread by the finaliser of MurmurHash3.
 std::size_t hash(std::uint64_t key) {
-  key ^= key >> 33U;
-  key *= 0xff51afd7ed558ccdULL;
-  key ^= key >> 33U;
-  return static_cast<std::size_t>(key);
+  constexpr std::uint64_t kLowBits = 3U | 3ULL << kBitsPerAxis | 3ULL << (2 * kBitsPerAxis);
+  const std::uint64_t within =
+      (key & 3U) | (key >> (kBitsPerAxis - 2) & 12U) | (key >> (2 * kBitsPerAxis - 4) & 48U);
+  std::uint64_t cube = key & ~kLowBits;
+  cube ^= cube >> 33U;
+  cube *= 0xff51afd7ed558ccdULL;
+  cube ^= cube >> 33U;
+  cube *= 0xc4ceb9fe1a85ec53ULL;
+  cube ^= cube >> 33U;
+  return static_cast<std::size_t>(cube << 6U | within);
 }
 
-std::uint8_t to_channel(float value) { return static_cast<std::uint8_t>(std::lround(value)); }
+/// For 0..255; std::lround is a call into the C library.
+std::uint8_t to_channel(float value) { return static_cast<std::uint8_t>(value + 0.5F); }
+
+/// std::floor without the call that it is on processors without SSE 4.1.
+std::int64_t floor_of(double value) {
+  const auto truncated = static_cast<std::int64_t>(value);
+  return truncated - (value < static_cast<double>(truncated) ? 1 : 0);
+}
 
 }  // namespace
 
@@ -73,8 +85,8 @@ Cloud VoxelGrid::to_cloud() const {
 std::uint64_t VoxelGrid::key_of(const Eigen::Vector3f& position) const {
   std::uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double cell = std::floor(cells_per_metre_ * static_cast<double>(position[axis]));
-    const auto bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(cell) + kOffset);
+    const std::int64_t cell = floor_of(cells_per_metre_ * static_cast<double>(position[axis]));
+    const auto bits = static_cast<std::uint64_t>(cell + kOffset);
     key |= (bits & kAxisMask) << static_cast<unsigned>(axis * kBitsPerAxis);
   }
   return key;
@@ -105,8 +117,8 @@ void VoxelGrid::grow() {
   }
 }
 
-Cloud voxel_filter(const Cloud& cloud, double voxel_m) {
-  VoxelGrid grid(voxel_m);
+Cloud voxel_filter(const Cloud& cloud, VoxelGrid& grid) {
+  grid.clear();
   for (const CloudPoint& point : cloud) grid.add(point);
   return grid.to_cloud();
 }

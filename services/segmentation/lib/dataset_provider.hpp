@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "common/core/error.hpp"
 #include "common/dataset/instance_truth.hpp"

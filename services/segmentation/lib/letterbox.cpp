@@ -24,6 +24,13 @@ void write_row(const std::uint8_t* bgr, int width, float* red, float* green, flo
   }
 }
 
+/// One channel of a row of pixels, between two of them.
+float interpolate(const std::uint8_t* bgr, const LinearTap& tap, int channel) {
+  const auto left = static_cast<float>(bgr[3 * tap.first + channel]);
+  const auto right = static_cast<float>(bgr[3 * tap.second + channel]);
+  return left + (right - left) * tap.weight_of_second;
+}
+
 /// For each pixel along the image in the input, where it is sampled in the frame.
 std::vector<LinearTap> frame_taps(int frame_length, int image_length) {
   const double scale = static_cast<double>(image_length) / frame_length;
@@ -109,21 +116,14 @@ void InputTensorWriter::write_row_scaled(const cv::Mat& bgr,
   const LinearTap& vertical = rows_[static_cast<std::size_t>(row)];
   const auto* upper = bgr.ptr<std::uint8_t>(vertical.first);
   const auto* lower = bgr.ptr<std::uint8_t>(vertical.second);
-  const float weight_lower = vertical.weight_of_second;
   const auto plane = static_cast<std::size_t>(input.area());
   float* red = tensor.data() + static_cast<std::ptrdiff_t>(letterbox_.image.y + row) * input.width +
                letterbox_.image.x;
   for (std::size_t x = 0; x < columns_.size(); ++x) {
-    const LinearTap& tap = columns_[x];
     for (int channel = 0; channel < 3; ++channel) {
-      const int left = 3 * tap.first + channel;
-      const int right = 3 * tap.second + channel;
-      const float weight = tap.weight_of_second;
-      const auto blend = [&](const std::uint8_t* pixels) {
-        return static_cast<float>(pixels[left]) * (1.0F - weight) +
-               static_cast<float>(pixels[right]) * weight;
-      };
-      const float value = blend(upper) * (1.0F - weight_lower) + blend(lower) * weight_lower;
+      const float above = interpolate(upper, columns_[x], channel);
+      const float below = interpolate(lower, columns_[x], channel);
+      const float value = above + (below - above) * vertical.weight_of_second;
       red[static_cast<std::size_t>(2 - channel) * plane + x] = value * kOneOver255;
     }
   }

@@ -13,7 +13,7 @@ namespace tsg {
 
 namespace {
 
-constexpr int kBoxNumbers = 4;
+constexpr std::size_t kBoxNumbers = 4;
 
 /// False where any value is NaN or infinite: those have all bits of the exponent set.
 bool is_all_finite(std::span<const float> values) {
@@ -35,8 +35,8 @@ struct BestClasses {
 BestClasses best_classes(const YoloSegLayout& layout, std::span<const float> anchors) {
   const auto count = static_cast<std::size_t>(layout.anchors);
   BestClasses best{std::vector<float>(count, 0.0F), std::vector<int>(count, 0)};
-  for (int class_id = 0; class_id < layout.classes(); ++class_id) {
-    const float* scores = anchors.data() + static_cast<std::size_t>(kBoxNumbers + class_id) * count;
+  const float* scores = anchors.data() + kBoxNumbers * count;
+  for (int class_id = 0; class_id < layout.classes(); ++class_id, scores += count) {
     for (std::size_t i = 0; i < count; ++i) {
       const bool is_better = scores[i] > best.scores[i];
       best.scores[i] = is_better ? scores[i] : best.scores[i];
@@ -76,7 +76,7 @@ std::vector<YoloSegDetection> without_duplicates(const std::vector<YoloSegDetect
 std::vector<float> coefficients_of(const MaskContext& context, int anchor) {
   const YoloSegLayout& layout = context.layout;
   const auto count = static_cast<std::size_t>(layout.anchors);
-  const auto first = static_cast<std::size_t>(kBoxNumbers + layout.classes());
+  const auto first = kBoxNumbers + layout.class_names.size();
   std::vector<float> coefficients(static_cast<std::size_t>(layout.coefficients));
   for (std::size_t i = 0; i < coefficients.size(); ++i) {
     coefficients[i] =
@@ -92,7 +92,7 @@ cv::Mat_<float> mask_probabilities(const MaskContext& context,
   const cv::Size size = context.layout.prototype_size;
   cv::Mat_<float> mask(region.size(), 0.0F);
   for (int y = 0; y < region.height; ++y) {
-    float* row = mask.ptr<float>(y);
+    auto* row = mask.ptr<float>(y);
     const float* prototype = context.tensors.prototypes.data() +
                              static_cast<std::ptrdiff_t>(region.y + y) * size.width + region.x;
     for (const float coefficient : coefficients) {
@@ -194,8 +194,8 @@ void paint_mask(const MaskContext& context,
   std::vector<float> blended(static_cast<std::size_t>(region.width));
   for (int y = 0; y < pixels.height; ++y) {
     const LinearTap& tap = rows[static_cast<std::size_t>(y)];
-    const float* upper = mask.ptr<float>(tap.first - region.y);
-    const float* lower = mask.ptr<float>(tap.second - region.y);
+    const auto* upper = mask.ptr<float>(tap.first - region.y);
+    const auto* lower = mask.ptr<float>(tap.second - region.y);
     for (std::size_t x = 0; x < blended.size(); ++x) {
       blended[x] = upper[x] + (lower[x] - upper[x]) * tap.weight_of_second;
     }
