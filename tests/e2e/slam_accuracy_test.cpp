@@ -1,0 +1,84 @@
+// How exactly the core of slam follows recorded sequences, in lockstep and with masks that come
+// late.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "common/dataset/evaluation.hpp"
+#include "tests/e2e/offline_slam.hpp"
+#include "tests/support/shared_dir.hpp"
+
+namespace tsg {
+namespace {
+
+using testing::IsEmpty;
+
+std::filesystem::path sequence(const std::string& name) {
+  return test::shared_dir() / "data" / name;
+}
+
+/// ATE RMSE in metres of the corrected trajectory.
+double ate_of(const OfflineRun& run, const std::string& name) {
+  const Trajectory truth = value_or_throw(read_ground_truth(sequence(name)));
+  return value_or_throw(absolute_error(truth, run.corrected)).translation_m.rmse;
+}
+
+struct Case {
+  std::string name;
+  OfflineOptions options;
+  double most_ate_m = 0.0;
+};
+
+void follow(const Case& expected) {
+  const OfflineRun run = run_offline(sequence(expected.name), expected.options);
+  EXPECT_THAT(run.failures, IsEmpty());
+  const double ate_m = ate_of(run, expected.name);
+  testing::Test::RecordProperty("ate_m", std::to_string(ate_m));
+  EXPECT_LE(ate_m, expected.most_ate_m);
+}
+
+TEST(SlamAccuracy, AmongWalkingPeopleWithTrueMasks) {
+  TSG_REQUIRE_SHARED("data/rendered/walking_xyz");
+  follow({.name = "rendered/walking_xyz", .options = {}, .most_ate_m = 0.004});
+}
+
+TEST(SlamAccuracy, AmongWalkingPeopleWithMasksEightFramesLateOfEveryFifthFrame) {
+  TSG_REQUIRE_SHARED("data/rendered/walking_xyz");
+  OfflineOptions options;
+  options.mask_delay_frames = 8;
+  options.mask_every_frames = 5;
+  follow({.name = "rendered/walking_xyz", .options = options, .most_ate_m = 0.01});
+}
+
+TEST(SlamAccuracy, RoundAStaticRoom) {
+  TSG_REQUIRE_SHARED("data/rendered/static_room");
+  follow({.name = "rendered/static_room", .options = {}, .most_ate_m = 0.008});
+}
+
+TEST(SlamAccuracy, BesideAChairThatIsDragged) {
+  TSG_REQUIRE_SHARED("data/rendered/moved_chair");
+  follow({.name = "rendered/moved_chair", .options = {}, .most_ate_m = 0.004});
+}
+
+TEST(SlamAccuracy, OnRealDistortedImages) {
+  TSG_REQUIRE_SHARED("data/tum_bits/fr1_desk_9");
+  follow({.name = "tum_bits/fr1_desk_9", .options = {}, .most_ate_m = 0.005});
+}
+
+TEST(SlamAccuracy, TwoRunsOverTheSameImagesAgreeInEveryBit) {
+  TSG_REQUIRE_SHARED("data/tum_bits/fr1_desk_9");
+  const OfflineRun first = run_offline(sequence("tum_bits/fr1_desk_9"), {});
+  const OfflineRun second = run_offline(sequence("tum_bits/fr1_desk_9"), {});
+  ASSERT_EQ(first.corrected.size(), second.corrected.size());
+  for (std::size_t i = 0; i < first.corrected.size(); ++i) {
+    const SE3& one = first.corrected[i].T_world_camera;
+    const SE3& two = second.corrected[i].T_world_camera;
+    EXPECT_EQ(one.translation(), two.translation()) << "frame " << i;
+    EXPECT_EQ(one.rotation().coeffs(), two.rotation().coeffs()) << "frame " << i;
+  }
+}
+
+}  // namespace
+}  // namespace tsg
