@@ -97,7 +97,7 @@ std::vector<ObjectCount> objects_of(const json& save_map_reply) {
   const auto found = save_map_reply.find("objects");
   if (found == save_map_reply.end() || !found->is_array()) return objects;
   for (const json& object : *found) {
-    objects.push_back({object.value("class", std::string("?")), object.value("count", 0ULL)});
+    objects.push_back({object.value("class", std::string("?")), object.value("max_in_view", 0ULL)});
   }
   return objects;
 }

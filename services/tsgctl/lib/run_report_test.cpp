@@ -59,7 +59,7 @@ TEST(RunReport, JsonTellsWhyARunDidNotComplete) {
 
 TEST(RunReport, ReadsObjectsOfTheMapServersReply) {
   const auto objects =
-      objects_of(nlohmann::json::parse(R"({"objects":[{"class":"chair","count":2}]})"));
+      objects_of(nlohmann::json::parse(R"({"objects":[{"class":"chair","max_in_view":2}]})"));
   ASSERT_EQ(objects.size(), 1U);
   EXPECT_EQ(objects[0].class_name, "chair");
   EXPECT_EQ(objects[0].count, 2U);
