@@ -10,7 +10,7 @@ namespace tsg {
 namespace {
 
 /// Rays into the open are cast from every this many pixels in x and y: 4 cm apart at 5 m.
-constexpr int kFreeEndStride_px = 4;
+constexpr int kFreeEndStride = 4;
 
 cv::Mat1d matrix_of(const CameraModel& camera) {
   return (cv::Mat1d(3, 3) << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0);
@@ -97,9 +97,9 @@ std::vector<Eigen::Vector3f> BackProjector::free_ends(const RgbdFrame& frame,
                                                       const cv::Mat1b& excluded) const {
   std::vector<Eigen::Vector3f> ends;
   const double max_raw = depth_.max_depth_m * frame.depth_units_per_metre;
-  for (int v = 0; v < excluded.rows; v += kFreeEndStride_px) {
+  for (int v = 0; v < excluded.rows; v += kFreeEndStride) {
     const auto* depth = frame.depth.ptr<std::uint16_t>(v);
-    for (int u = 0; u < excluded.cols; u += kFreeEndStride_px) {
+    for (int u = 0; u < excluded.cols; u += kFreeEndStride) {
       if (excluded(v, u) != 0 || depth[u] <= max_raw) continue;
       ends.push_back(point_at(u, v, static_cast<float>(depth_.max_depth_m)));
     }

@@ -110,7 +110,7 @@ bool is_excluded(const Instance& instance, const ExclusionConfig& config) {
 
 cv::Mat1b excluded_pixels(const Keyframe& keyframe, const ExclusionConfig& config) {
   if (!keyframe.has_labels) return {keyframe.frame.depth.size(), std::uint8_t{0}};
-  const cv::Mat1b mask = pixels_of_excluded(keyframe, config);
+  cv::Mat1b mask = pixels_of_excluded(keyframe, config);
   if (cv::countNonZero(mask) == 0) return mask;
 
   cv::Mat1b core;

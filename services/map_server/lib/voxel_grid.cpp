@@ -23,8 +23,11 @@ std::size_t hash(std::uint64_t key) {
   return static_cast<std::size_t>(cube << 6U | within);
 }
 
-/// For 0..255; std::lround is a call into the C library.
-std::uint8_t to_channel(float value) { return static_cast<std::uint8_t>(value + 0.5F); }
+/// For 0..255, where truncation rounds down; std::lround is a call into the C library.
+std::uint8_t to_channel(float value) {
+  return static_cast<std::uint8_t>(value +
+                                   0.5F);  // NOLINT(bugprone-incorrect-roundings): see above
+}
 
 /// std::floor without the call that it is on processors without SSE 4.1.
 std::int64_t floor_of(double value) {
