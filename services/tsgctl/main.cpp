@@ -10,6 +10,7 @@
 #include "services/tsgctl/eval_command.hpp"
 #include "services/tsgctl/hz_command.hpp"
 #include "services/tsgctl/run_command.hpp"
+#include "services/tsgctl/simulate_command.hpp"
 #include "services/tsgctl/status_command.hpp"
 #include "services/tsgctl/topics_command.hpp"
 
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
   });
   tsg::add_run_command(app);
   tsg::add_eval_command(app);
+  tsg::add_simulate_command(app);
   tsg::add_status_command(app);
   tsg::add_topics_command(app);
   tsg::add_echo_command(app);

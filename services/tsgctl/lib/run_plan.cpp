@@ -8,9 +8,11 @@ namespace tsg {
 namespace {
 
 /// Keys that an option of `tsgctl run` decides: setting them as well could only contradict it.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kKeysOfOptions{{
-    {"camera.input", "--input"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kKeysOfOptions{{
+    {"camera.source", "--input"},
+    {"camera.replay.folder", "--input"},
     {"camera.pace", "--pace"},
+    {"camera.wait_for_subscribers", "--segmentation"},
     {"slam.lockstep", "--pace"},
     {"slam.expect_masks", "--segmentation"},
     {"segmentation.provider", "--segmentation"},
@@ -84,9 +86,12 @@ std::vector<std::string> slam_arguments(const RunOptions& options) {
 }
 
 std::vector<std::string> camera_arguments(const RunOptions& options) {
+  const bool masks = options.segmentation != SegmentationSource::kOff;
   return Arguments(options)
-      .set("camera.input=" + options.input.string())
+      .set("camera.source=replay")
+      .set("camera.replay.folder=" + options.input.string())
       .set("camera.pace=" + std::string(to_string(options.pace)))
+      .set(std::string("camera.wait_for_subscribers=") + (masks ? "2" : "1"))
       .take();
 }
 

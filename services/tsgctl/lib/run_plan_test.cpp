@@ -51,6 +51,7 @@ TEST(RunPlan, SegmentationOffStartsNoSegmentationAndExpectsNoMasks) {
   const RunPlan plan = planned(options_of(SegmentationSource::kOff));
   EXPECT_THAT(names_of(plan), ElementsAre("slam", "map_server", "camera"));
   EXPECT_THAT(arguments_of(plan, "slam"), Contains("slam.expect_masks=false"));
+  EXPECT_THAT(arguments_of(plan, "camera"), Contains("camera.wait_for_subscribers=1"));
 }
 
 TEST(RunPlan, LockstepReachesBothEndsOfTheHandshake) {
@@ -60,6 +61,15 @@ TEST(RunPlan, LockstepReachesBothEndsOfTheHandshake) {
   EXPECT_THAT(arguments_of(plan, "camera"), Contains("camera.pace=lockstep"));
   EXPECT_THAT(arguments_of(plan, "slam"),
               IsSupersetOf({"slam.lockstep=true", "slam.expect_masks=true"}));
+}
+
+TEST(RunPlan, InputReachesTheCameraAndTheProviderOfTrueMasks) {
+  const RunPlan plan = planned(options_of(SegmentationSource::kDataset));
+  EXPECT_THAT(arguments_of(plan, "camera"), IsSupersetOf({"camera.replay.folder=/data/sequence",
+                                                          "camera.wait_for_subscribers=2"}));
+  EXPECT_THAT(arguments_of(plan, "segmentation"),
+              IsSupersetOf(
+                  {"segmentation.provider=dataset", "segmentation.dataset.folder=/data/sequence"}));
 }
 
 TEST(RunPlan, ModelReachesSegmentation) {

@@ -1,5 +1,6 @@
 #include "services/tsgctl/lib/run_report.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace tsg {
@@ -27,11 +28,9 @@ json percentiles_json(const Percentiles& values) {
 
 json frames_json(const RunReport& report) {
   const TrackingTotals& tracking = report.tracking;
-  return {{"total", report.frames_total},
-          {"answered", tracking.answered},
-          {"tracked", tracking.tracked},
-          {"lost", tracking.lost},
-          {"dropped", tracking.dropped}};
+  return {{"total", report.frames_total}, {"answered", tracking.answered},
+          {"tracked", tracking.tracked},  {"lost", tracking.lost},
+          {"late", report.frames_late},   {"dropped", frames_dropped(report)}};
 }
 
 json masks_json(const RunReport& report) {
@@ -62,6 +61,15 @@ json processes_json(const std::vector<ProcessUse>& processes) {
 }
 
 }  // namespace
+
+std::uint64_t frames_dropped(const RunReport& report) {
+  // Of a complete run, what has no answer; slam's own count knows no hole at the end.
+  const bool is_complete = report.problem.empty();
+  const std::uint64_t missing =
+      is_complete ? report.frames_total - std::min(report.frames_total, report.tracking.answered)
+                  : report.tracking.dropped;
+  return missing - std::min(missing, report.frames_late);
+}
 
 json to_json(const RunReport& report) {
   json objects = json::array();

@@ -33,7 +33,7 @@ struct OutputFile {
 
 struct ObjectCount {
   std::string class_name;
-  std::uint64_t count = 0;
+  std::uint64_t count = 0;  ///< most of them in one view: a lower bound of their number
 };
 
 /// All that a run leaves to say: OUT/report.json and the summary at its end.
@@ -47,6 +47,7 @@ struct RunReport {
   std::string problem;      ///< why the run did not complete; empty where it did
   double duration_s = 0.0;  ///< first frame sent to last frame answered
   std::uint64_t frames_total = 0;
+  std::uint64_t frames_late = 0;  ///< that the camera did not send since their time had passed
   TrackingTotals tracking;
   /// Of trajectory.txt; needs ground truth.
   std::optional<TrajectoryAccuracy> accuracy = std::nullopt;
@@ -57,6 +58,9 @@ struct RunReport {
   std::vector<OutputFile> files;
   nlohmann::json services = nlohmann::json::object();  ///< the report of each service, by name
 };
+
+/// Frames that the camera sent and tracking never saw.
+[[nodiscard]] std::uint64_t frames_dropped(const RunReport& report);
 
 /// The content of report.json (docs/tsgctl.md lists its keys).
 [[nodiscard]] nlohmann::json to_json(const RunReport& report);

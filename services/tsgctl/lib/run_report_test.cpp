@@ -57,6 +57,21 @@ TEST(RunReport, JsonTellsWhyARunDidNotComplete) {
   EXPECT_EQ(json["problem"], report.problem);
 }
 
+TEST(RunReport, DroppedAreTheUnansweredThatWereSent) {
+  RunReport report = complete_report();
+  report.tracking.answered = 250;
+  report.frames_late = 3;
+  EXPECT_EQ(frames_dropped(report), 7U);
+}
+
+TEST(RunReport, FramesThatAnInterruptedRunNeverCameToAreNotDropped) {
+  RunReport report = complete_report();
+  report.problem = "stopped";
+  report.tracking.answered = 100;
+  report.tracking.dropped = 2;
+  EXPECT_EQ(frames_dropped(report), 2U);
+}
+
 TEST(RunReport, ReadsObjectsOfTheMapServersReply) {
   const auto objects =
       objects_of(nlohmann::json::parse(R"({"objects":[{"class":"chair","max_in_view":2}]})"));

@@ -15,9 +15,12 @@ std::string milliseconds(const Percentiles& values) {
 
 std::string frames_text(const RunReport& report) {
   const TrackingTotals& tracking = report.tracking;
-  return std::to_string(report.frames_total) + " in the input, " +
-         std::to_string(tracking.tracked) + " tracked, " + std::to_string(tracking.lost) +
-         " lost, " + std::to_string(tracking.dropped) + " dropped";
+  std::string text = std::to_string(report.frames_total) + " in the input, " +
+                     std::to_string(tracking.tracked) + " tracked, " +
+                     std::to_string(tracking.lost) + " lost, " +
+                     std::to_string(frames_dropped(report)) + " dropped";
+  if (report.frames_late > 0) text += ", " + std::to_string(report.frames_late) + " not sent: late";
+  return text;
 }
 
 std::string ate_text(const TrajectoryAccuracy& accuracy) {

@@ -19,6 +19,8 @@ constexpr seconds kAnswerTimeout{60};  // the map of a long sequence takes its t
 constexpr seconds kDrainTimeout{30};
 constexpr milliseconds kDiscoveryTime{500};
 constexpr milliseconds kWatchPeriod{50};
+/// The camera stays a moment after its last frames; those before have nothing final to tell.
+constexpr std::uint64_t kLastFrames = 15;
 /// Nothing for so long after the camera's end: slam has answered all it will.
 constexpr milliseconds kQuiet{500};
 // Ctrl-C to the last process gone in 2 s: these and RouDi's 500 ms together stay below.
@@ -114,9 +116,21 @@ void RunSession::follow_camera() {
   while (!supervisor_.has_finished("camera")) {
     throw_if_stopped();
     supervisor_.check_alive("camera");
-    watch_->wait(kWatchPeriod, signals_.token());
+    const bool heard = watch_->wait(kWatchPeriod, signals_.token());
     progress_.update(progress_state());
+    if (!heard) ask_camera_at_its_end();
   }
+}
+
+void RunSession::ask_camera_at_its_end() {
+  const std::uint64_t passed = watch_->frames_passed();
+  if (passed + kLastFrames < sequence_.frames || passed == camera_asked_at_) return;
+  camera_asked_at_ = passed;
+  // It may end meanwhile: then what it said before holds.
+  const auto reply = commands_->call("camera", "report", "{}", kLastWordsTimeout);
+  if (!reply) return;
+  auto report = nlohmann::json::parse(*reply, nullptr, /*allow_exceptions=*/false);
+  if (report.is_object()) replies_["camera"]["report"] = std::move(report);
 }
 
 void RunSession::follow_stragglers() {
@@ -212,6 +226,9 @@ RunReport RunSession::make_report(const std::optional<FatalError>& failure) {
   }
   if (const auto reply = replies_.find("map_server"); reply != replies_.end()) {
     report.objects = objects_of(*reply);
+  }
+  if (const auto reply = replies_.find("camera"); reply != replies_.end()) {
+    report.frames_late = (*reply)["report"].value("frames_late", std::uint64_t{0});
   }
   report.processes = supervisor_.uses();
   report.files = out_.files();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -38,6 +39,8 @@ class RunSession {
   void start();
   void join_bus();
   void follow_camera();
+  /// What only the camera knows, while it is still there.
+  void ask_camera_at_its_end();
   void follow_stragglers();
   void save();
   /// After a failure or Ctrl-C: the trajectory so far, if slam still answers.
@@ -57,6 +60,7 @@ class RunSession {
   OutputFolder out_;
   Progress progress_;
   nlohmann::json replies_ = nlohmann::json::object();
+  std::uint64_t camera_asked_at_ = 0;  // frames that had passed then
   std::unique_ptr<RoudiProcess> roudi_;
   std::unique_ptr<Bus> bus_;
   std::unique_ptr<TrackingWatch> watch_;
