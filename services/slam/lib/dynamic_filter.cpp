@@ -1,10 +1,10 @@
 #include "services/slam/lib/dynamic_filter.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "common/core/time.hpp"
 #include "services/slam/lib/dynamic_classes.hpp"
@@ -17,27 +17,31 @@ constexpr std::size_t kPastFrames = 32;     // a second, as masks come late
 constexpr std::size_t kMinBodyPoints = 12;  // small pixels; less is noise at the end of range
 constexpr double kMaxBodySpeed = 2.5;       // m/s; a faster "body" is two instances taken for one
 constexpr double kUnknownDepth = 2.0;       // metres, for masks of frames that were never seen
+constexpr double kOnSurface = 0.1;          // metres; what lies deeper is not the body
 constexpr float kMinDepth = 0.1F;           // metres
 constexpr float kConnectedStep = 0.04F;     // relative depth step within one surface
 constexpr std::uint8_t kMarked = 255;
 
-/// Nearest valid depth of each square, in metres; 0 where there is none. The nearest, as what moves
-/// usually stands in front.
+/// Nearest valid raw depth of the inner four pixels of square `x`; 0 where there is none. The
+/// nearest, as what moves usually stands in front.
+std::uint16_t nearest_of(const std::uint16_t* upper, const std::uint16_t* lower, int x) {
+  const int left = x * kReduction + 1;
+  std::uint16_t nearest = 0;
+  for (const std::uint16_t raw : {upper[left], upper[left + 1], lower[left], lower[left + 1]}) {
+    if (raw > 0 && (nearest == 0 || raw < nearest)) nearest = raw;
+  }
+  return nearest;
+}
+
+/// Depth of each square in metres; 0 where there is none.
 cv::Mat reduce_depth(const RgbdFrame& frame) {
   cv::Mat small(frame.depth.rows / kReduction, frame.depth.cols / kReduction, CV_32FC1);
   const auto metres_per_unit = static_cast<float>(1.0 / frame.depth_units_per_metre);
-  constexpr int kNone = std::numeric_limits<std::uint16_t>::max() + 1;
   for (int y = 0; y < small.rows; ++y) {
     const auto* upper = frame.depth.ptr<std::uint16_t>(y * kReduction + 1);
     const auto* lower = frame.depth.ptr<std::uint16_t>(y * kReduction + 2);
     for (int x = 0; x < small.cols; ++x) {
-      int nearest = kNone;
-      for (const int k : {x * kReduction + 1, x * kReduction + 2}) {
-        if (upper[k] > 0) nearest = std::min<int>(nearest, upper[k]);
-        if (lower[k] > 0) nearest = std::min<int>(nearest, lower[k]);
-      }
-      small.at<float>(y, x) =
-          nearest == kNone ? 0.0F : static_cast<float>(nearest) * metres_per_unit;
+      small.at<float>(y, x) = static_cast<float>(nearest_of(upper, lower, x)) * metres_per_unit;
     }
   }
   return small;
@@ -72,47 +76,56 @@ Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& points) {
   return median;
 }
 
-/// Marks what is connected to the marked pixels in `depth`, `steps` pixels far at most, at the
-/// depths in [nearest, farthest].
-void grow(const cv::Mat& depth, float nearest, float farthest, int steps, cv::Mat& marked) {
-  std::vector<cv::Point> front;
-  for (int y = 0; y < marked.rows; ++y) {
-    for (int x = 0; x < marked.cols; ++x) {
-      if (marked.at<std::uint8_t>(y, x) != 0) front.emplace_back(x, y);
-    }
-  }
-  constexpr std::array<std::array<int, 2>, 4> kSides = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+/// Depths that a body can have, metres.
+struct DepthRange {
+  float nearest = 0.0F;
+  float farthest = 0.0F;
+};
+
+/// Marks the neighbours of `from` that belong to the same surface and adds them to `next`.
+void spread(const cv::Mat& depth,
+            const DepthRange& range,
+            const cv::Point& from,
+            cv::Mat& marked,
+            std::vector<cv::Point>& next) {
   const cv::Rect inside(0, 0, depth.cols, depth.rows);
+  const float here = depth.at<float>(from);
+  for (const cv::Point& side :
+       {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+    const cv::Point to = from + side;
+    if (!inside.contains(to) || marked.at<std::uint8_t>(to) != 0) continue;
+    const float there = depth.at<float>(to);
+    if (there < range.nearest || there > range.farthest) continue;
+    if (here > 0.0F && std::abs(there - here) > kConnectedStep * here) continue;
+    marked.at<std::uint8_t>(to) = kMarked;
+    next.push_back(to);
+  }
+}
+
+/// Marks what is connected to the marked pixels in `depth`, `steps` pixels far at most.
+void grow(const cv::Mat& depth, const DepthRange& range, int steps, cv::Mat& marked) {
+  std::vector<cv::Point> front;
+  cv::findNonZero(marked, front);
   std::vector<cv::Point> next;
   for (int step = 0; step < steps && !front.empty(); ++step) {
     next.clear();
-    for (const cv::Point& from : front) {
-      const float z = depth.at<float>(from);
-      for (const auto& side : kSides) {
-        const cv::Point to(from.x + side[0], from.y + side[1]);
-        if (!inside.contains(to) || marked.at<std::uint8_t>(to) != 0) continue;
-        const float there = depth.at<float>(to);
-        if (there < nearest || there > farthest) continue;
-        if (z > 0.0F && std::abs(there - z) > kConnectedStep * z) continue;
-        marked.at<std::uint8_t>(to) = kMarked;
-        next.push_back(to);
-      }
-    }
+    for (const cv::Point& from : front) spread(depth, range, from, marked, next);
     std::swap(front, next);
   }
 }
 
 }  // namespace
 
-DynamicFilter::DynamicFilter(const DynamicFilterConfig& config, const CameraModel& camera)
-    : config_(config), camera_(camera), small_camera_(reduced(camera)) {}
+DynamicFilter::DynamicFilter(DynamicFilterConfig config, const CameraModel& camera)
+    : config_(std::move(config)), camera_(camera), small_camera_(reduced(camera)) {}
 
 cv::Mat DynamicFilter::judge(const RgbdFrame& frame,
                              const InstanceSegmentation* mask,
                              const SE3& T_world_camera) {
   remember(frame);
-  has_new_mask_ = mask != nullptr && mask_seq_ != mask->frame_seq;
+  has_new_mask_ = false;
   if (mask == nullptr || mask->frame_seq > frame.seq) return {};
+  has_new_mask_ = mask_seq_ != mask->frame_seq;
   if (has_new_mask_) take_in(*mask);
   const std::uint64_t age = frame.seq - mask->frame_seq;
   if (age == 0) return exact_verdicts(*mask, config_);
@@ -140,7 +153,7 @@ bool DynamicFilter::was_dynamic(const Eigen::Vector3d& p_world) const {
   const cv::Point nearest(cvRound(pixel.x()), cvRound(pixel.y()));
   if (small_dynamic_.at<std::uint8_t>(nearest) == 0) return false;
   const double depth = past->small_depth.at<float>(nearest);
-  return depth > 0.0 && std::abs(depth - p_camera.z()) < config_.depth_tolerance_m;
+  return depth > 0.0 && std::abs(depth - p_camera.z()) < kOnSurface;
 }
 
 void DynamicFilter::remember(const RgbdFrame& frame) {
@@ -244,8 +257,9 @@ void DynamicFilter::mark_body(const Body& body,
   const double nearest = depths[depths.size() / 20];
   const double farthest = depths[depths.size() - 1 - depths.size() / 20];
   const int steps = 1 + static_cast<int>(std::lround(reach_m * small_camera_.fx / nearest));
-  grow(depth, static_cast<float>(nearest - tolerance_m), static_cast<float>(farthest + tolerance_m),
-       steps, marked);
+  const DepthRange range{static_cast<float>(nearest - tolerance_m),
+                         static_cast<float>(farthest + tolerance_m)};
+  grow(depth, range, steps, marked);
 }
 
 const DynamicFilter::PastFrame* DynamicFilter::find_past(std::uint64_t seq) const {

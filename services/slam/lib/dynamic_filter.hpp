@@ -23,7 +23,7 @@ namespace tsg {
 /// Works on images of a quarter of the size. Owned by the tracking thread.
 class DynamicFilter {
  public:
-  DynamicFilter(const DynamicFilterConfig& config, const CameraModel& camera);
+  DynamicFilter(DynamicFilterConfig config, const CameraModel& camera);
 
   /// Verdicts for the pixels of `frame` (CV_8UC1 of its size, FeatureVerdict); empty if `mask` is
   /// null or too old. `T_world_camera` is the predicted pose of the frame.

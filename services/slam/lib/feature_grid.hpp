@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,21 +22,22 @@ class FeatureGrid {
   template <typename Visit>
   void for_each_near(const Eigen::Vector2f& centre, float radius, Visit&& visit) const {
     if (starts_.empty()) return;
-    const int first_column = column_of(centre.x() - radius);
-    const int last_column = column_of(centre.x() + radius);
-    for (int row = row_of(centre.y() - radius); row <= row_of(centre.y() + radius); ++row) {
-      const auto begin = starts_[static_cast<std::size_t>(row * columns_ + first_column)];
-      const auto end = starts_[static_cast<std::size_t>(row * columns_ + last_column + 1)];
+    const std::size_t first_column = column_of(centre.x() - radius);
+    const std::size_t last_column = column_of(centre.x() + radius);
+    const std::size_t last_row = row_of(centre.y() + radius);
+    for (std::size_t row = row_of(centre.y() - radius); row <= last_row; ++row) {
+      const std::uint32_t begin = starts_[row * columns_ + first_column];
+      const std::uint32_t end = starts_[row * columns_ + last_column + 1];
       for (std::uint32_t i = begin; i < end; ++i) visit(static_cast<int>(order_[i]));
     }
   }
 
  private:
-  [[nodiscard]] int column_of(float x) const;
-  [[nodiscard]] int row_of(float y) const;
+  [[nodiscard]] std::size_t column_of(float x) const;
+  [[nodiscard]] std::size_t row_of(float y) const;
 
-  int columns_ = 0;
-  int rows_ = 0;
+  std::size_t columns_ = 0;
+  std::size_t rows_ = 0;
   std::vector<std::uint32_t> starts_;  ///< per cell, where its features begin in order_
   std::vector<std::uint16_t> order_;   ///< feature indices, sorted by cell
 };

@@ -27,10 +27,10 @@ class LocalMapper {
  public:
   LocalMapper(const SlamConfig& config, const CameraModel& camera);
   ~LocalMapper();
-  LocalMapper(LocalMapper&&) noexcept;
-  LocalMapper& operator=(LocalMapper&&) noexcept;
-  LocalMapper(const LocalMapper&) = delete;
-  LocalMapper& operator=(const LocalMapper&) = delete;
+  LocalMapper(LocalMapper&& other) noexcept;
+  LocalMapper& operator=(LocalMapper&& other) noexcept;
+  LocalMapper(const LocalMapper& other) = delete;
+  LocalMapper& operator=(const LocalMapper& other) = delete;
 
   /// Adds the keyframe with new map points from its depth; fuses duplicates with its neighbours.
   void insert(KeyframeCandidate&& candidate);

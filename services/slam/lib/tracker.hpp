@@ -52,10 +52,10 @@ class Tracker {
           const CameraModel& camera,
           std::function<void(TrackingStage)> on_stage = {});
   ~Tracker();
-  Tracker(Tracker&&) noexcept;
-  Tracker& operator=(Tracker&&) noexcept;
-  Tracker(const Tracker&) = delete;
-  Tracker& operator=(const Tracker&) = delete;
+  Tracker(Tracker&& other) noexcept;
+  Tracker& operator=(Tracker&& other) noexcept;
+  Tracker(const Tracker& other) = delete;
+  Tracker& operator=(const Tracker& other) = delete;
 
   /// Features of `frame` without those on dynamic instances. `mask` may be null; it may belong to
   /// an older frame and is then carried forward to this one. Both are only read during the call.
