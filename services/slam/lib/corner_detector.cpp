@@ -48,15 +48,17 @@ const std::vector<cv::KeyPoint>& CornerDetector::detect(const cv::Mat& image, in
 void CornerDetector::search_bare_tiles(const cv::Mat& image, const cv::Rect& inside) {
   const int columns = (inside.width + kTile - 1) / kTile;
   const int rows = (inside.height + kTile - 1) / kTile;
-  tile_counts_.assign(static_cast<std::size_t>(columns * rows), 0);
+  const int tiles = columns * rows;
+  tile_counts_.assign(static_cast<std::size_t>(tiles), 0);
   for (const cv::KeyPoint& corner : corners_) {
     const int column = (static_cast<int>(corner.pt.x) - inside.x) / kTile;
     const int row = (static_cast<int>(corner.pt.y) - inside.y) / kTile;
-    ++tile_counts_[static_cast<std::size_t>(row * columns + column)];
+    const int tile = row * columns + column;
+    ++tile_counts_[static_cast<std::size_t>(tile)];
   }
   const cv::Rect inside_with_rim(inside.x - kFastRadius, inside.y - kFastRadius,
                                  inside.width + 2 * kFastRadius, inside.height + 2 * kFastRadius);
-  for (int tile = 0; tile < columns * rows; ++tile) {
+  for (int tile = 0; tile < tiles; ++tile) {
     if (tile_counts_[static_cast<std::size_t>(tile)] >= kBareCorners) continue;
     const cv::Rect tile_with_rim(inside.x + tile % columns * kTile - kFastRadius,
                                  inside.y + tile / columns * kTile - kFastRadius,
@@ -85,9 +87,11 @@ void keep_spread(std::vector<cv::KeyPoint>& corners, const cv::Size& size, int w
     ranked[i] = {0, corners[i].response, y, x, i};
   }
   std::sort(ranked.begin(), ranked.end(), comes_first);  // by strength: all ranks are 0
-  std::vector<int> counts(static_cast<std::size_t>(columns * rows), 0);
+  const int cells = columns * rows;
+  std::vector<int> counts(static_cast<std::size_t>(cells), 0);
   for (Ranked& corner : ranked) {
-    corner.rank = counts[static_cast<std::size_t>(corner.y / cell * columns + corner.x / cell)]++;
+    const int own_cell = corner.y / cell * columns + corner.x / cell;
+    corner.rank = counts[static_cast<std::size_t>(own_cell)]++;
   }
   std::nth_element(ranked.begin(), ranked.begin() + wanted, ranked.end(), comes_first);
   ranked.resize(static_cast<std::size_t>(wanted));

@@ -8,7 +8,8 @@
 namespace tsg {
 namespace {
 
-constexpr int kRadius = 2;           // 5x5 pixels: registration is off by a pixel or two
+constexpr int kRadius = 2;  // 5x5 pixels: registration is off by a pixel or two
+constexpr std::size_t kPixels = 25;
 constexpr int kMinAgreeing = 5;      // of 25
 constexpr double kStepSigmas = 6.0;  // inverse depths further apart lie on two surfaces
 
@@ -18,7 +19,7 @@ float sample_inverse_depth(const cv::Mat& depth,
                            double units_per_metre,
                            const cv::Point& pixel,
                            const FeatureConfig& config) {
-  std::array<double, (2 * kRadius + 1) * (2 * kRadius + 1)> values{};
+  std::array<double, kPixels> values{};
   std::size_t count = 0;
   for (int y = std::max(0, pixel.y - kRadius); y <= std::min(depth.rows - 1, pixel.y + kRadius);
        ++y) {
