@@ -51,7 +51,7 @@ void LocalMapper::Impl::link_tracked_points(const KeyframeCandidate& candidate,
   for (std::size_t i = 0; i < candidate.points.size(); ++i) {
     if (candidate.points[i] == kNoPoint) continue;
     MapPoint* point = map.find_point(candidate.points[i]);  // may be gone since it was tracked
-    if (point != nullptr && map.add_observation(*point, keyframe, static_cast<int>(i))) {
+    if (point != nullptr && Map::add_observation(*point, keyframe, static_cast<int>(i))) {
       map.update_appearance(*point, model);
     }
   }

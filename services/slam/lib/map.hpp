@@ -58,11 +58,11 @@ class Map {
   PointId add_point(const Eigen::Vector3d& position, Keyframe& keyframe, int feature);
 
   /// Joins point and feature unless one of them is joined already; says whether it did.
-  bool add_observation(MapPoint& point, Keyframe& keyframe, int feature);
+  static bool add_observation(MapPoint& point, Keyframe& keyframe, int feature);
   /// Takes an observation out, and the point with it when none is left.
-  void remove_observation(PointId point, KeyframeId keyframe);
-  void remove_point(PointId point);
-  void remove_keyframe(KeyframeId keyframe);
+  void remove_observation(PointId id, KeyframeId keyframe);
+  void remove_point(PointId id);
+  void remove_keyframe(KeyframeId id);
   /// Gives the observations of `from` to `to` where its keyframes do not see `to`; removes `from`.
   void merge_points(PointId from, PointId to);
 

@@ -26,7 +26,7 @@ class MapTest : public testing::Test {
                                             .points = std::vector<PointId>(kFeatures, kNoPoint),
                                             .banned = std::vector<bool>(kFeatures, false)});
     for (std::size_t i = 0; i < points.size(); ++i) {
-      map_.add_observation(*map_.find_point(points[i]), keyframe, static_cast<int>(i));
+      Map::add_observation(*map_.find_point(points[i]), keyframe, static_cast<int>(i));
     }
     return keyframe;
   }
@@ -59,10 +59,10 @@ TEST_F(MapTest, JoinsNeitherATakenNorABannedFeature) {
   const auto points = add_points(first, 0, 2);
   Keyframe& second = add_keyframe(1, 0.1, {points[0]});
   second.banned[1] = true;
-  EXPECT_FALSE(map_.add_observation(*map_.find_point(points[1]), second, 0));
-  EXPECT_FALSE(map_.add_observation(*map_.find_point(points[1]), second, 1));
-  EXPECT_TRUE(map_.add_observation(*map_.find_point(points[1]), second, 2));
-  EXPECT_FALSE(map_.add_observation(*map_.find_point(points[1]), second, 3)) << "seen once only";
+  EXPECT_FALSE(Map::add_observation(*map_.find_point(points[1]), second, 0));
+  EXPECT_FALSE(Map::add_observation(*map_.find_point(points[1]), second, 1));
+  EXPECT_TRUE(Map::add_observation(*map_.find_point(points[1]), second, 2));
+  EXPECT_FALSE(Map::add_observation(*map_.find_point(points[1]), second, 3)) << "seen once only";
 }
 
 TEST_F(MapTest, MergingGivesAllSightingsToOnePoint) {

@@ -19,7 +19,7 @@ void join(Map& map, PointId id, Keyframe& keyframe, int feature) {
   const PointId shown = keyframe.points[static_cast<std::size_t>(feature)];
   MapPoint& point = *map.find_point(id);
   if (shown == kNoPoint) {
-    map.add_observation(point, keyframe, feature);
+    Map::add_observation(point, keyframe, feature);
     return;
   }
   if (shown == id) return;
