@@ -116,10 +116,11 @@ TEST_F(MapServer, RejectsMalformedKeyframesAndLivesOn) {
       {[](tsg_Keyframe& m) { m.intrinsics.width = 100000; }, "100000"}};
   std::uint64_t seq = 0;
   for (const auto& [damage, reason] : cases) {
-    ASSERT_TRUE(bus_.publish<topics::Keyframe>([&](tsg_Keyframe& message) {
-      fill_wall(message, seq++);
+    ASSERT_TRUE(bus_.publish<topics::Keyframe>([seq, damage = damage](tsg_Keyframe& message) {
+      fill_wall(message, seq);
       damage(message);
     }));
+    ++seq;
     ASSERT_TRUE(save(out_.path(), static_cast<int>(seq)));
     EXPECT_THAT(report()["last_rejection"].get<std::string>(), HasSubstr(reason));
   }
@@ -180,10 +181,10 @@ TEST_F(MapServer, PublishesItsStateEverySecond) {
   ASSERT_TRUE(bus_.watch<topics::Diagnostics>());
   send(0);
   const auto state = bus_.wait_for<topics::Diagnostics>(5s, [](const auto& message) {
-    for (const NamedDiagnostic& named : to_diagnostics(message)) {
-      if (named.name == "map_server" && named.diagnostic.message == "mapping") return true;
-    }
-    return false;
+    const auto all = to_diagnostics(message);
+    return std::any_of(all.begin(), all.end(), [](const NamedDiagnostic& named) {
+      return named.name == "map_server" && named.diagnostic.message == "mapping";
+    });
   });
   EXPECT_TRUE(state);
 }

