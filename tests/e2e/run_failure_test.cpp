@@ -19,11 +19,10 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using testing_support::TempFolder;
 
 /// The name of a process as the kernel shortens it; empty where it is gone.
 std::string name_of(const fs::path& process) {
-  std::string name = testing_support::content_of(process / "comm");
+  std::string name = test::content_of(process / "comm");
   if (!name.empty()) name.pop_back();
   return name;
 }

@@ -64,9 +64,9 @@ TEST(RunSimulatedRoom, TwoLockstepRunsGiveTheSameTrajectoryToTheByte) {
   TsgctlRun second(simulated_room(), lockstep("dataset"));
   (void)complete_run(first);
   (void)complete_run(second);
-  const std::string trajectory = testing_support::content_of(first.out() / "trajectory.txt");
+  const std::string trajectory = test::content_of(first.out() / "trajectory.txt");
   EXPECT_FALSE(trajectory.empty());
-  EXPECT_EQ(trajectory, testing_support::content_of(second.out() / "trajectory.txt"));
+  EXPECT_EQ(trajectory, test::content_of(second.out() / "trajectory.txt"));
 }
 
 TEST(RunWalkingXyz, LockstepWithTrueMasksIsAccurate) {

@@ -31,18 +31,18 @@ class TsgctlRun {
 
   /// OUT/report.json; null where it is absent or damaged.
   [[nodiscard]] nlohmann::json report() const {
-    return nlohmann::json::parse(testing_support::content_of(out() / "report.json"), nullptr,
+    return nlohmann::json::parse(test::content_of(out() / "report.json"), nullptr,
                                  /*allow_exceptions=*/false);
   }
 
  private:
-  testing_support::TempFolder folder_;
+  test::TempFolder folder_;
   std::vector<std::string> arguments_;
 };
 
 /// A short sequence of the simulated room, written once for all tests of a program.
 inline const std::filesystem::path& simulated_room() {
-  static const testing_support::TempFolder folder;
+  static const test::TempFolder folder;
   static const std::filesystem::path path = [] {
     const std::filesystem::path room = folder / "room";
     write_simulated_sequence(room, {.frames = 40, .width = 640, .height = 480});

@@ -26,7 +26,7 @@ class RunningProgram {
 
   [[nodiscard]] ChildProcess& child() { return child_; }
   [[nodiscard]] std::string output() const {
-    return testing_support::content_of(folder_ / "output");
+    return test::content_of(folder_ / "output");
   }
 
   /// Its end; killed, which the caller's check of the exit code shows, after `timeout`.
@@ -36,7 +36,7 @@ class RunningProgram {
   }
 
  private:
-  testing_support::TempFolder folder_;
+  test::TempFolder folder_;
   ChildProcess child_;
 };
 

@@ -9,7 +9,7 @@
 namespace tsg {
 namespace {
 
-using testing_support::TempFolder;
+using test::TempFolder;
 
 TEST(OutputFolder, RemovesResultsOfAnEarlierRunAndNothingElse) {
   const TempFolder temp;

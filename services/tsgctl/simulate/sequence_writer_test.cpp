@@ -13,7 +13,7 @@
 namespace tsg {
 namespace {
 
-using testing_support::TempFolder;
+using test::TempFolder;
 
 constexpr SimulationOptions kSmall{.frames = 3, .width = 64, .height = 48};
 
@@ -75,8 +75,8 @@ TEST(SimulatedSequence, IsTheSameEachTime) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(first.path())) {
     if (!entry.is_regular_file()) continue;
     const auto relative = std::filesystem::relative(entry.path(), first.path());
-    EXPECT_EQ(testing_support::content_of(entry.path()),
-              testing_support::content_of(second / relative))
+    EXPECT_EQ(test::content_of(entry.path()),
+              test::content_of(second / relative))
         << relative;
   }
 }
