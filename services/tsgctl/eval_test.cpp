@@ -14,9 +14,9 @@
 namespace tsg {
 namespace {
 
+using test::TempFolder;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using test::TempFolder;
 
 Summary make_summary(double rmse) {
   Summary summary;

@@ -191,17 +191,16 @@ TEST(RunFailure, DiskThatFillsUpDuringTheRunIsToldAtSaving) {
 /// What makes a run last until it is stopped.
 const std::vector<std::string> kEndless{"--set", "camera.replay.loop=true"};
 
-/// A run that has tracked its first frames.
-RunningProgram run_under_way(const TsgctlRun& run) {
-  RunningProgram program = run.start();
-  EXPECT_TRUE(eventually(60s, [&] { return program.output().find("fps") != std::string::npos; }))
+/// Returns once the first frames have been tracked.
+void wait_until_under_way(const RunningProgram& program) {
+  ASSERT_TRUE(eventually(60s, [&] { return program.output().find("fps") != std::string::npos; }))
       << program.output();
-  return program;
 }
 
 TEST(RunInterrupted, CtrlCStopsAllWithinTwoSecondsAndKeepsWhatThereIs) {
   const TsgctlRun run(simulated_room(), kEndless);
-  RunningProgram program = run_under_way(run);
+  RunningProgram program = run.start();
+  wait_until_under_way(program);
   const auto start = std::chrono::steady_clock::now();
   program.child().signal(SIGINT);
   const ProgramResult result = program.wait(30s);
@@ -214,7 +213,8 @@ TEST(RunInterrupted, CtrlCStopsAllWithinTwoSecondsAndKeepsWhatThereIs) {
 
 TEST(RunInterrupted, SigtermHasACodeOfItsOwn) {
   const TsgctlRun run(simulated_room(), kEndless);
-  RunningProgram program = run_under_way(run);
+  RunningProgram program = run.start();
+  wait_until_under_way(program);
   program.child().signal(SIGTERM);
   EXPECT_EQ(program.wait(30s).end.exit_code, static_cast<int>(ExitCode::kTerminated));
   expect_no_process_left();
@@ -222,7 +222,8 @@ TEST(RunInterrupted, SigtermHasACodeOfItsOwn) {
 
 TEST(RunInterrupted, KilledTsgctlLeavesNoServiceBehind) {
   const TsgctlRun run(simulated_room(), kEndless);
-  RunningProgram program = run_under_way(run);
+  RunningProgram program = run.start();
+  wait_until_under_way(program);
   kill(program.child().pid(), SIGKILL);  // it alone, not its group
   (void)program.wait(30s);
   expect_no_process_left();
@@ -230,7 +231,8 @@ TEST(RunInterrupted, KilledTsgctlLeavesNoServiceBehind) {
 
 TEST(RunInterrupted, KilledSlamEndsTheRunAndIsNamed) {
   const TsgctlRun run(simulated_room(), kEndless);
-  RunningProgram program = run_under_way(run);
+  RunningProgram program = run.start();
+  wait_until_under_way(program);
   const std::set<pid_t> slam = processes_named("tsg-slam");
   ASSERT_EQ(slam.size(), 1U);
   kill(*slam.begin(), SIGKILL);

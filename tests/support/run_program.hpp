@@ -25,9 +25,7 @@ class RunningProgram {
                                                    .output_file = folder_ / "output"}))) {}
 
   [[nodiscard]] ChildProcess& child() { return child_; }
-  [[nodiscard]] std::string output() const {
-    return test::content_of(folder_ / "output");
-  }
+  [[nodiscard]] std::string output() const { return test::content_of(folder_ / "output"); }
 
   /// Its end; killed, which the caller's check of the exit code shows, after `timeout`.
   ProgramResult wait(std::chrono::milliseconds timeout) {

@@ -75,9 +75,7 @@ TEST(SimulatedSequence, IsTheSameEachTime) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(first.path())) {
     if (!entry.is_regular_file()) continue;
     const auto relative = std::filesystem::relative(entry.path(), first.path());
-    EXPECT_EQ(test::content_of(entry.path()),
-              test::content_of(second / relative))
-        << relative;
+    EXPECT_EQ(test::content_of(entry.path()), test::content_of(second / relative)) << relative;
   }
 }
 
