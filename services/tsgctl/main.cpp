@@ -26,7 +26,8 @@ int report(tsg::ExitCode code, const char* message) {
 int main(int argc, char** argv) {
   CLI::App app("Runs and examines TSG-SLAM. 'tsgctl COMMAND --help' has examples.", "tsgctl");
   app.set_version_flag("--version", TSG_VERSION);
-  app.require_subcommand(1);
+  // Not CLI11's own check, which says of a mistyped command only that one is missing.
+  app.require_subcommand(0, 1);
   app.failure_message([](const CLI::App* /*app*/, const CLI::Error& error) {
     return std::string("tsgctl: error: ") + error.what() + "; --help tells more\n";
   });
@@ -40,6 +41,7 @@ int main(int argc, char** argv) {
   tsg::add_doctor_command(app);
   try {
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) throw CLI::RequiredError::Subcommand(1);
     return static_cast<int>(tsg::ExitCode::kOk);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(tsg::ExitCode::kUsage);

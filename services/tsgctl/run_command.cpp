@@ -32,7 +32,7 @@ Examples:
   tsgctl run --input data/walking_xyz --out out
   tsgctl run --input data/walking_xyz --out out --pace lockstep --segmentation dataset
   tsgctl run --input data/fr3_walking --out out --segmentation model --model yolov8n-seg.onnx
-  tsgctl run --input data/desk --out out --set slam.max_features=800
+  tsgctl run --input data/desk --out out --set slam.features.max_features=800
 Ends with 0 when every process did its work; other codes: docs/exit-codes.md.)";
 
 void describe(CLI::App& command, RunArguments& arguments) {
@@ -82,6 +82,7 @@ void run(RunArguments& arguments) {
   options.overrides = arguments.bus.overrides;
   options.pace = arguments.pace == "lockstep" ? Pace::kLockstep : Pace::kRealtime;
   options.segmentation = segmentation_of(arguments);
+  throw_on_error(check_run_options(options));
   const StopOnSignal signals;
   const Sequence sequence = open_sequence(options);
   RunSession session(options, sequence, signals);

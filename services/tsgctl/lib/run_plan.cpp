@@ -31,21 +31,6 @@ Expected<void> check_override(const std::string& override_text) {
   return {};
 }
 
-Expected<void> check_options(const RunOptions& options) {
-  if (options.segmentation == SegmentationSource::kModel && options.model.empty()) {
-    return make_error(ExitCode::kUsage,
-                      "--segmentation model needs a network: add --model FILE.onnx");
-  }
-  if (options.segmentation != SegmentationSource::kModel && !options.model.empty()) {
-    return make_error(ExitCode::kUsage, "--model goes with --segmentation model, not with " +
-                                            std::string(to_string(options.segmentation)));
-  }
-  for (const std::string& override_text : options.overrides) {
-    if (auto checked = check_override(override_text); !checked) return checked;
-  }
-  return {};
-}
-
 /// Arguments of one service: the user's file and settings, then what the options decide.
 class Arguments {
  public:
@@ -111,9 +96,24 @@ std::string_view to_string(SegmentationSource source) {
   return "off";
 }
 
+Expected<void> check_run_options(const RunOptions& options) {
+  if (options.segmentation == SegmentationSource::kModel && options.model.empty()) {
+    return make_error(ExitCode::kUsage,
+                      "--segmentation model needs a network: add --model FILE.onnx");
+  }
+  if (options.segmentation != SegmentationSource::kModel && !options.model.empty()) {
+    return make_error(ExitCode::kUsage, "--model goes with --segmentation model, not with " +
+                                            std::string(to_string(options.segmentation)));
+  }
+  for (const std::string& override_text : options.overrides) {
+    if (auto checked = check_override(override_text); !checked) return checked;
+  }
+  return {};
+}
+
 Expected<RunPlan> make_run_plan(const RunOptions& options,
                                 const std::filesystem::path& bin_folder) {
-  if (auto checked = check_options(options); !checked) {
+  if (auto checked = check_run_options(options); !checked) {
     return tl::unexpected<Error>(checked.error());
   }
   RunPlan plan;

@@ -49,6 +49,9 @@ struct RunPlan {
   [[nodiscard]] const ProcessPlan& camera() const { return processes.back(); }
 };
 
+/// kUsage where options contradict each other or a setting is one that an option owns.
+[[nodiscard]] Expected<void> check_run_options(const RunOptions& options);
+
 /// The plan for `options`, with the executables in `bin_folder`. kUsage where options contradict
 /// each other. Whether overrides are well-formed is for the services to say.
 [[nodiscard]] Expected<RunPlan> make_run_plan(const RunOptions& options,

@@ -31,18 +31,22 @@ TEST(SimulatedSequence, IsASequenceThatTheLoaderTakes) {
 
 TEST(SimulatedSequence, HasTrueMasksWithThePersonMoving) {
   const TempFolder temp;
-  write_simulated_sequence(temp.path(), kSmall);
+  write_simulated_sequence(temp.path(), {.frames = 90, .width = 64, .height = 48});
   const auto masks = InstanceTruth::open(temp.path());
   ASSERT_TRUE(masks.has_value()) << masks.error().message;
-  const auto seen = masks->at(open_tum_folder(temp.path())->frames[0].stamp_ns);
-  ASSERT_TRUE(seen.has_value()) << seen.error().message;
+  const auto folder = open_tum_folder(temp.path());
+  ASSERT_TRUE(folder.has_value()) << folder.error().message;
   int moving = 0;
-  for (const Instance& instance : seen->instances) {
-    if (instance.motion != MotionVerdict::kMoving) continue;
-    ++moving;
-    EXPECT_EQ(instance.class_name, "person");
+  for (const RgbdFiles& frame : folder->frames) {
+    const auto seen = masks->at(frame.stamp_ns);
+    ASSERT_TRUE(seen.has_value()) << seen.error().message;
+    for (const Instance& instance : seen->instances) {
+      const bool is_person = instance.class_name == "person";
+      EXPECT_EQ(instance.motion == MotionVerdict::kMoving, is_person);
+      moving += is_person ? 1 : 0;
+    }
   }
-  EXPECT_EQ(moving, 1);
+  EXPECT_GT(moving, 20) << "somebody walks through the view for a second or so";
 }
 
 TEST(SimulatedSequence, DepthAgreesWithThePosesOnAPixelThatBothFramesSee) {
