@@ -6,8 +6,10 @@
 
 #include "common/app/stop_on_signal.hpp"
 #include "common/core/atomic_file.hpp"
+#include "common/dataset/evaluation.hpp"
 #include "services/tsgctl/bus_options.hpp"
 #include "services/tsgctl/lib/run_summary.hpp"
+#include "services/tsgctl/plot.hpp"
 #include "services/tsgctl/run/run_session.hpp"
 
 namespace tsg {
@@ -26,7 +28,8 @@ Without --segmentation: "model" where --model is given, "dataset" where the inpu
 (mask/ and instances.json), else "off".
 
 Writes trajectory.txt, trajectory_live.txt, keyframes.txt (TUM format), map.ot, map.bt, cloud.ply,
-report.json and logs/ into OUT. Ctrl-C stops everything and keeps what there is.
+report.json and logs/ into OUT, and trajectory.png where there is ground truth. Ctrl-C stops
+everything and keeps what there is.
 
 Examples:
   tsgctl run --input data/walking_xyz --out out
@@ -67,6 +70,24 @@ SegmentationSource segmentation_of(const RunArguments& arguments) {
                                                  : SegmentationSource::kOff;
 }
 
+/// Draws the trajectory against the truth. A run is as good without the picture, so that a missing
+/// gnuplot is only told.
+void draw_trajectory(const Trajectory& truth, const RunOptions& options, RunReport& report) {
+  const std::filesystem::path path = options.out / "trajectory.png";
+  const auto drawn =
+      read_trajectory(options.out / "trajectory.txt")
+          .and_then([&](const Trajectory& estimate) { return absolute_error(truth, estimate); })
+          .and_then([&](const AbsoluteError& error) {
+            const std::string title = options.input.filename().string();
+            return plot_trajectory({title, truth, error}, path);
+          });
+  if (!drawn) {
+    std::cerr << "trajectory.png is not drawn: " << drawn.error().message << "\n";
+    return;
+  }
+  report.files.push_back({path.filename().string(), std::filesystem::file_size(path)});
+}
+
 /// Writes report.json and adds it to the files of the report, for the summary.
 Expected<void> write_report(RunReport& report) {
   const std::filesystem::path path = std::filesystem::path(report.out) / "report.json";
@@ -87,6 +108,9 @@ void run(RunArguments& arguments) {
   const Sequence sequence = open_sequence(options);
   RunSession session(options, sequence, signals);
   RunOutcome outcome = session.run();
+  if (sequence.ground_truth && outcome.report.accuracy) {
+    draw_trajectory(*sequence.ground_truth, options, outcome.report);
+  }
   const Expected<void> written = write_report(outcome.report);
   if (outcome.report.tracking.answered > 0) std::cout << summary_text(outcome.report);
   // The failure that ended the run matters more than one at writing about it.
