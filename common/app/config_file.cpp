@@ -56,8 +56,10 @@ struct ConfigFile::Impl {
       throw FatalError(ExitCode::kUsage,
                        "--set " + text + ": write section.key=value, e.g. slam.lockstep=true");
     }
+    const std::string value = text.substr(equals + 1);
     try {
-      entries[name] = {YAML::Load(text.substr(equals + 1)), kCommandLine};
+      // Nothing behind the sign means an empty text; YAML would take it for null.
+      entries[name] = {value.empty() ? YAML::Node("") : YAML::Load(value), kCommandLine};
     } catch (const YAML::Exception& error) {
       throw FatalError(ExitCode::kUsage, "--set " + text + ": " + error.what());
     }

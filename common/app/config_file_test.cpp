@@ -64,6 +64,15 @@ TEST_F(ConfigFileTest, OverridesWinOverTheFile) {
   EXPECT_EQ(count, 7);
 }
 
+TEST_F(ConfigFileTest, TakesAnOverrideWithoutAValueForAnEmptyText) {
+  const ConfigFile file = load("camera:\n  folder: somewhere\n", {"camera.folder="});
+  std::string folder = "default";
+  ConfigReader reader(file, "camera");
+  reader.read("folder", folder);
+  reader.finish();
+  EXPECT_EQ(folder, "");
+}
+
 TEST_F(ConfigFileTest, ListsAllProblemsAtOnceWithTheirLines) {
   const ConfigFile file = load("slam:\n  count: many\n  nested:\n    typo: 1\n");
   int count = 1;
@@ -89,7 +98,7 @@ TEST_F(ConfigFileTest, NamesTheLineThatIsNotYaml) {
   EXPECT_THAT(message, HasSubstr("not valid YAML"));
 }
 
-TEST_F(ConfigFileTest, RefusesAnOverrideWithoutAValue) {
+TEST_F(ConfigFileTest, RefusesAnOverrideWithoutAnEqualsSign) {
   EXPECT_THAT(message_of([this] { auto file = load("", {"slam"}); }, ExitCode::kUsage),
               HasSubstr("section.key=value"));
 }

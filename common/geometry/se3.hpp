@@ -13,6 +13,7 @@ class SE3 {
  public:
   SE3() = default;  ///< identity
   /// `rotation` is normalised.
+  // NOLINTNEXTLINE(modernize-pass-by-value): Eigen forbids it for its aligned types
   SE3(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation)
       : rotation_(rotation.normalized()), translation_(translation) {}
   SE3(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation)

@@ -193,6 +193,11 @@ void SlamNode::publish_diagnostics() {
   const auto add = [&](const char* key, auto value) {
     diagnostic.values.emplace_back(key, std::to_string(value));
   };
+  const std::uint64_t answered = statistics_.frames_tracked + statistics_.frames_lost;
+  const double elapsed_s = to_seconds(since_diagnostics_.lap_ns());
+  const auto since_last = static_cast<double>(answered - answered_at_diagnostics_);
+  answered_at_diagnostics_ = answered;
+  add("rate_hz", elapsed_s > 0.0 ? since_last / elapsed_s : 0.0);
   add("frames_tracked", statistics_.frames_tracked);
   add("frames_lost", statistics_.frames_lost);
   add("frames_dropped", frames_.missed());

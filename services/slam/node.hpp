@@ -8,6 +8,7 @@
 #include "common/bus/command.hpp"
 #include "common/bus/diagnostics.hpp"
 #include "common/bus/topics.hpp"
+#include "common/core/time.hpp"
 #include "services/slam/config.hpp"
 #include "services/slam/dense_keyframes.hpp"
 #include "services/slam/keyframe_publisher.hpp"
@@ -74,6 +75,8 @@ class SlamNode {
   NodeStatistics statistics_;
   TrackingState state_ = TrackingState::kInitialising;
   std::int64_t last_stamp_ns_ = 0;
+  Stopwatch since_diagnostics_;
+  std::uint64_t answered_at_diagnostics_ = 0;
 };
 
 }  // namespace tsg
