@@ -67,8 +67,8 @@ OfflineRun run_offline(const std::filesystem::path& folder, const OfflineOptions
   LocalMapper mapper(options.slam, sequence.camera.model);
   TrajectoryRecorder recorder;
   OfflineRun run;
-  run.frames = sequence.frames.size();
-  for (std::size_t i = 0; i < run.frames; ++i) {
+  for (std::size_t i = 0; i < sequence.frames.size(); i += options.take_every_frames) {
+    ++run.frames;
     const RgbdFrame frame = value_or_throw(read_frame(sequence, i));
     const InstanceSegmentation* mask = masks.latest(frame);
     Stopwatch watch;

@@ -14,9 +14,10 @@ namespace tsg {
 /// How the core is run over a recorded sequence.
 struct OfflineOptions {
   SlamConfig slam;
-  bool use_masks = true;      ///< the sequence's true masks, where it has some
-  int mask_delay_frames = 0;  ///< a mask comes that many frames after its frame ...
-  int mask_every_frames = 1;  ///< ... and only every so many frames is segmented at all
+  bool use_masks = true;              ///< the sequence's true masks, where it has some
+  int mask_delay_frames = 0;          ///< a mask comes that many frames after its frame ...
+  int mask_every_frames = 1;          ///< ... and only every so many frames is segmented at all
+  std::size_t take_every_frames = 1;  ///< the others are skipped, as if the camera were faster
 };
 
 struct OfflineRun {

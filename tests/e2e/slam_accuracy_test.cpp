@@ -52,6 +52,13 @@ TEST(SlamAccuracy, AmongWalkingPeopleWithMasksEightFramesLateOfEveryFifthFrame) 
   follow({.name = "rendered/walking_xyz", .options = options, .most_ate_m = 0.01});
 }
 
+TEST(SlamAccuracy, AtThreeTimesTheSpeed) {
+  TSG_REQUIRE_SHARED("data/rendered/walking_xyz");
+  OfflineOptions options;
+  options.take_every_frames = 3;
+  follow({.name = "rendered/walking_xyz", .options = options, .most_ate_m = 0.005});
+}
+
 TEST(SlamAccuracy, RoundAStaticRoom) {
   TSG_REQUIRE_SHARED("data/rendered/static_room");
   follow({.name = "rendered/static_room", .options = {}, .most_ate_m = 0.008});
@@ -65,6 +72,14 @@ TEST(SlamAccuracy, BesideAChairThatIsDragged) {
 TEST(SlamAccuracy, OnRealDistortedImages) {
   TSG_REQUIRE_SHARED("data/tum_bits/fr1_desk_9");
   follow({.name = "tum_bits/fr1_desk_9", .options = {}, .most_ate_m = 0.005});
+}
+
+TEST(SlamAccuracy, RoundABareCabinetWithTwoThirdsOfASecondBetweenFrames) {
+  TSG_REQUIRE_SHARED("data/tum_bits/fr3_cabinet_sub58");
+  const std::string name = "tum_bits/fr3_cabinet_sub58";
+  const OfflineRun run = run_offline(sequence(name), {});
+  EXPECT_LE(run.failures.size(), 3U) << "of " << run.frames;
+  EXPECT_LE(ate_of(run, name), 0.045);
 }
 
 TEST(SlamAccuracy, TwoRunsOverTheSameImagesAgreeInEveryBit) {

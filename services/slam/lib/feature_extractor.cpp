@@ -65,6 +65,7 @@ Features FeatureExtractor::extract(const RgbdFrame& frame, const cv::Mat& verdic
       ++features.counts.potentially_dynamic;
     }
   }
+  features.surface = sample_surface(frame, verdicts, config_);
   undistort(features);
   features.grid = FeatureGrid(features.items, camera_.width, camera_.height);
   return features;

@@ -6,6 +6,7 @@
 
 #include "services/slam/lib/descriptor.hpp"
 #include "services/slam/lib/feature_grid.hpp"
+#include "services/slam/lib/surface.hpp"
 
 namespace tsg {
 
@@ -40,6 +41,7 @@ struct Features {
   std::vector<Feature> items;
   std::vector<Descriptor> descriptors;  ///< one for each item
   FeatureGrid grid;                     ///< over the undistorted pixels
+  Surface surface;                      ///< for where corners are few
   FeatureCounts counts;
   int mask_age_frames = -1;  ///< of the mask that was applied; -1 without one
 

@@ -10,8 +10,10 @@ void FrameMatches::drop_unmapped() {
   }
 }
 
-PoseEstimate FrameMatches::optimise(const ObservationModel& model, const SE3& T_camera_world) {
-  PoseEstimate estimate = optimise_pose(model, to_point_matches(model), T_camera_world);
+PoseEstimate FrameMatches::optimise(const ObservationModel& model,
+                                    const SE3& T_camera_world,
+                                    const PosePrior& prior) {
+  PoseEstimate estimate = optimise_pose(model, to_point_matches(model), T_camera_world, prior);
   std::size_t match = 0;
   for (Slot& slot : slots_) {
     if (!slot.matched) continue;

@@ -22,7 +22,9 @@ class FrameMatches {
   void drop_unmapped();
 
   /// The pose by all matches, from `T_camera_world` on; matches that do not fit it are dropped.
-  PoseEstimate optimise(const ObservationModel& model, const SE3& T_camera_world);
+  PoseEstimate optimise(const ObservationModel& model,
+                        const SE3& T_camera_world,
+                        const PosePrior& prior = {});
 
   /// The matches in the form that solvers want.
   [[nodiscard]] std::vector<PointMatch> to_point_matches(const ObservationModel& model) const;

@@ -6,8 +6,6 @@
 namespace tsg {
 namespace {
 
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 constexpr int kRounds = 4;
 constexpr int kIterations = 6;       // per round; two or three suffice after the first
 constexpr int kMinInliers = 3;       // below it 6 unknowns are not determined
@@ -69,20 +67,41 @@ double total_cost(const ObservationModel& model,
   return cost;
 }
 
+/// The twist from the prior's pose to `T_camera_world`.
+Vector6d deviation(const PosePrior& prior, const SE3& T_camera_world) {
+  return (T_camera_world * prior.T_camera_world.inverse()).log();
+}
+
+double prior_cost(const PosePrior& prior, const SE3& T_camera_world) {
+  const Vector6d moved = deviation(prior, T_camera_world);
+  return 0.5 * moved.dot(prior.information * moved);
+}
+
+/// As the prior is near, a twist of the pose is one of the deviation.
+void add_prior(const PosePrior& prior, const SE3& T_camera_world, NormalEquations& equations) {
+  equations.H += prior.information;
+  equations.b -= prior.information * deviation(prior, T_camera_world);
+  equations.cost += prior_cost(prior, T_camera_world);
+}
+
 /// One round of Levenberg-Marquardt over the matches in `used`.
 SE3 descend(const ObservationModel& model,
             const std::vector<PointMatch>& matches,
             const std::vector<bool>& used,
+            const PosePrior& prior,
             SE3 T_camera_world) {
   double damping = kInitialDamping;
   NormalEquations equations = linearise(model, matches, used, T_camera_world);
+  add_prior(prior, T_camera_world, equations);
   for (int i = 0; i < kIterations && damping < kMaxDamping; ++i) {
     Matrix6d damped = equations.H;
     damped.diagonal() *= 1.0 + damping;
     const Vector6d step = damped.ldlt().solve(equations.b);
     if (!step.allFinite()) break;
     const SE3 T_candidate_world = SE3::exp(step) * T_camera_world;
-    if (total_cost(model, matches, used, T_candidate_world) > equations.cost) {
+    const double cost =
+        total_cost(model, matches, used, T_candidate_world) + prior_cost(prior, T_candidate_world);
+    if (cost > equations.cost) {
       damping = damping < 1e-3 ? 1e-3 : damping * 10.0;
       continue;
     }
@@ -90,6 +109,7 @@ SE3 descend(const ObservationModel& model,
     if (step.norm() < kConverged) break;
     damping *= 0.1;
     equations = linearise(model, matches, used, T_camera_world);
+    add_prior(prior, T_camera_world, equations);
   }
   return T_camera_world;
 }
@@ -114,19 +134,21 @@ int classify(const ObservationModel& model,
 
 PoseEstimate optimise_pose(const ObservationModel& model,
                            const std::vector<PointMatch>& matches,
-                           const SE3& T_camera_world) {
+                           const SE3& T_camera_world,
+                           const PosePrior& prior) {
   PoseEstimate estimate{.T_camera_world = T_camera_world,
                         .is_inlier = std::vector<bool>(matches.size(), true),
                         .inliers = static_cast<int>(matches.size())};
   for (int round = 0; round < kRounds && estimate.inliers >= kMinInliers; ++round) {
     const std::vector<bool> before = estimate.is_inlier;
-    estimate.T_camera_world = descend(model, matches, before, estimate.T_camera_world);
+    estimate.T_camera_world = descend(model, matches, before, prior, estimate.T_camera_world);
     estimate.inliers = classify(model, matches, estimate.T_camera_world, estimate.is_inlier);
     if (round > 0 && before == estimate.is_inlier) break;
   }
   if (estimate.inliers >= kMinInliers) {
-    const NormalEquations equations =
+    NormalEquations equations =
         linearise(model, matches, estimate.is_inlier, estimate.T_camera_world);
+    add_prior(prior, estimate.T_camera_world, equations);
     estimate.covariance = equations.H.ldlt().solve(Matrix6d::Identity());
   }
   return estimate;

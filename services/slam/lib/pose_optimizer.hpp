@@ -14,12 +14,20 @@ struct PointMatch {
   PointObservation observation;
 };
 
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// What is known of a pose without the matches.
+struct PosePrior {
+  SE3 T_camera_world;
+  Matrix6d information = Matrix6d::Zero();  ///< of a left-hand twist of it, translation first
+};
+
 struct PoseEstimate {
   SE3 T_camera_world;
   std::vector<bool> is_inlier;  ///< one for each match
   int inliers = 0;
   /// Of a left-hand twist of T_camera_world, translation first; only set with >= 3 inliers.
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  Matrix6d covariance = Matrix6d::Zero();
 };
 
 /// Minimises the robust (Huber) reprojection error of `matches` over the pose alone, from
@@ -27,6 +35,7 @@ struct PoseEstimate {
 /// Levenberg-Marquardt with analytic derivatives.
 [[nodiscard]] PoseEstimate optimise_pose(const ObservationModel& model,
                                          const std::vector<PointMatch>& matches,
-                                         const SE3& T_camera_world);
+                                         const SE3& T_camera_world,
+                                         const PosePrior& prior = {});
 
 }  // namespace tsg

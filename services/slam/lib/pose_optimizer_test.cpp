@@ -46,6 +46,17 @@ TEST(PoseOptimizer, FindsTheExactPoseFromExactSightings) {
   EXPECT_EQ(estimate.inliers, 50);
 }
 
+TEST(PoseOptimizer, WeighsWhatIsKnownOfThePoseAgainstTheSightings) {
+  std::mt19937 generator(3);
+  const auto matches = exact_matches(generator, 8);
+  PosePrior prior{.T_camera_world = synthetic::pose_at(0.01, 0.0, 0.0) * kTruth};
+  prior.information = 1e12 * Matrix6d::Identity();
+  const PoseEstimate held = optimise_pose(kModel, matches, kTruth, prior);
+  EXPECT_NEAR(error_of(held.T_camera_world), 0.01, 1e-4);
+  prior.information = 1e-3 * Matrix6d::Identity();
+  EXPECT_LT(error_of(optimise_pose(kModel, matches, kTruth, prior).T_camera_world), 1e-5);
+}
+
 TEST(PoseOptimizer, RecoversThePoseUnderThirtyPercentOutliers) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);

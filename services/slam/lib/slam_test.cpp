@@ -103,6 +103,15 @@ TEST_F(SlamTest, IsLostOnBlankImagesAndFindsItsMapAgain) {
   EXPECT_LT((back.inverse() * *result.T_world_camera).translation().norm(), 0.01);
 }
 
+TEST_F(SlamTest, FollowsACameraThatMovesFarBetweenTwoFrames) {
+  for (int i = 0; i < 4; ++i) step(static_cast<std::uint64_t>(i), on_path(i));
+  const SE3 far = on_path(3) * synthetic::pose_at(-0.3, 0.1, 0.15, 0.15);
+  const TrackResult result = step(4, far);
+  ASSERT_EQ(result.state, TrackingState::kTracking) << result.reason;
+  EXPECT_FALSE(result.relocalised);
+  EXPECT_LT((far.inverse() * *result.T_world_camera).translation().norm(), 0.01);
+}
+
 TEST_F(SlamTest, KeepsTrackingOnDepthAloneUntilTheFirstSnapshotComes) {
   const LocalMapSnapshot empty;
   for (int i = 0; i < 5; ++i) {

@@ -11,6 +11,7 @@
 #include "services/slam/lib/keyframe_policy.hpp"
 #include "services/slam/lib/observation_model.hpp"
 #include "services/slam/lib/pnp.hpp"
+#include "services/slam/lib/surface_prior.hpp"
 
 namespace tsg {
 namespace {
@@ -18,9 +19,12 @@ namespace {
 constexpr double kPredictedRadius = 8.0;         // pixels: the motion model's usual error
 constexpr double kSurpriseRadius = 24.0;         // pixels: when the camera was jerked
 constexpr double kMapRadius = 4.0;               // pixels: after a first pose from the last frame
+constexpr double kSurfaceRadius = 12.0;          // pixels: after a first pose from the surfaces
 constexpr double kKeyframeRadius = 10.0;         // pixels: after a first pose from a keyframe
 constexpr int kEnoughMatches = 3;                // times min_inliers; fewer: search on more widely
 constexpr std::size_t kKeyframesPerAttempt = 4;  // when lost; bounds the time of a frame
+constexpr double kMaxSigma = 0.02;               // metres or radians: how uncertain a pose may be
+constexpr std::int64_t kMaxSurfaceGapNs = 2'000'000'000;
 constexpr int kEstablished = 2;        // observations of a point that is no mere candidate
 constexpr double kDefaultDepth = 2.0;  // metres, of a scene without any depth
 
@@ -29,6 +33,7 @@ struct Fix {
   SE3 T_camera_world;
   FrameMatches matches;
   int inliers = 0;
+  PosePrior prior = {};  ///< by the shape of the scene; without weight where that was not asked
 };
 
 double median_depth(const Features& features) {
@@ -64,11 +69,16 @@ struct Tracker::Impl {
 
   [[nodiscard]] std::optional<Fix> fix_by_last_frame(const FrameSearch& search,
                                                      std::int64_t stamp_ns) const;
+  [[nodiscard]] std::optional<Fix> fix_by_surface(const FrameSearch& search,
+                                                  const Features& features) const;
   [[nodiscard]] std::optional<Fix> fix_by_keyframes(const FrameSearch& search,
                                                     const LocalMapSnapshot& map);
   [[nodiscard]] std::optional<Fix> fix_by_keyframe(const FrameSearch& search,
                                                    const SnapshotKeyframe& keyframe) const;
+  [[nodiscard]] std::optional<Fix> find_fix(const Features& features, const LocalMapSnapshot& map);
   bool refine(const FrameSearch& search, const LocalMapSnapshot& map, Fix& fix);
+  [[nodiscard]] bool is_weak(const Fix& fix) const;
+  [[nodiscard]] bool is_certain(const Fix& fix, const PoseEstimate& estimate) const;
   void count_sightings(const std::vector<PointId>& in_view, const FrameMatches& matches);
 
   void accept(const std::shared_ptr<const Features>& features,
@@ -166,6 +176,25 @@ std::optional<Fix> Tracker::Impl::fix_by_keyframe(const FrameSearch& search,
   return Fix{refined.T_camera_world, std::move(matches), refined.inliers};
 }
 
+/// The pose by the depth images, with what few corners there are.
+std::optional<Fix> Tracker::Impl::fix_by_surface(const FrameSearch& search,
+                                                 const Features& features) const {
+  // Later the camera may be anywhere, and rooms are full of shapes that look alike.
+  if (features.stamp_ns - last->features->stamp_ns > kMaxSurfaceGapNs) return std::nullopt;
+  begin(TrackingStage::kOptimise);
+  const SE3 T_predicted = predict(features.stamp_ns).inverse();
+  const auto prior = pose_by_surface(model, config.features, *last, features, T_predicted);
+  if (!prior) return std::nullopt;
+  begin(TrackingStage::kMatch);
+  FrameMatches matches = search.match_last_frame(*last, LastFramePoints::kWithDepth,
+                                                 prior->T_camera_world, kSurfaceRadius);
+  begin(TrackingStage::kOptimise);
+  const PoseEstimate estimate = matches.optimise(model, prior->T_camera_world, *prior);
+  Fix fix{estimate.T_camera_world, std::move(matches), estimate.inliers, *prior};
+  if (!is_certain(fix, estimate)) return std::nullopt;
+  return fix;
+}
+
 /// Tries the reference keyframe first, then, a few per frame, all that the snapshot has.
 std::optional<Fix> Tracker::Impl::fix_by_keyframes(const FrameSearch& search,
                                                    const LocalMapSnapshot& map) {
@@ -191,12 +220,38 @@ bool Tracker::Impl::refine(const FrameSearch& search, const LocalMapSnapshot& ma
     fix.matches.drop_unmapped();
   }
   begin(TrackingStage::kOptimise);
-  const PoseEstimate estimate = fix.matches.optimise(model, fix.T_camera_world);
+  const PoseEstimate estimate = fix.matches.optimise(model, fix.T_camera_world, fix.prior);
   fix.T_camera_world = estimate.T_camera_world;
   fix.inliers = estimate.inliers;
-  if (estimate.inliers < config.tracker.min_inliers) return false;
+  if (!is_certain(fix, estimate)) return false;
   count_sightings(in_view, fix.matches);
   return true;
+}
+
+bool Tracker::Impl::is_weak(const Fix& fix) const {
+  return fix.inliers < kEnoughMatches * config.tracker.min_inliers;
+}
+
+/// Where surfaces hold the pose too, fewer corners do, if together they leave no freedom.
+bool Tracker::Impl::is_certain(const Fix& fix, const PoseEstimate& estimate) const {
+  if (fix.inliers >= config.tracker.min_inliers) return true;
+  if (fix.prior.information.isZero() || fix.inliers < config.tracker.min_inliers / 3) return false;
+  return estimate.covariance.diagonal().maxCoeff() < kMaxSigma * kMaxSigma;
+}
+
+/// Each way in turn, the cheap ones first; the first pose that the map confirms.
+std::optional<Fix> Tracker::Impl::find_fix(const Features& features, const LocalMapSnapshot& map) {
+  const FrameSearch search(model, map, features);
+  std::optional<Fix> fix;
+  if (!lost) fix = fix_by_last_frame(search, features.stamp_ns);
+  if (fix && refine(search, map, *fix) && !is_weak(*fix)) return fix;
+  if (auto by_surface = fix_by_surface(search, features)) {
+    if (refine(search, map, *by_surface)) return by_surface;
+  }
+  if (fix && fix->inliers >= config.tracker.min_inliers) return fix;
+  fix = fix_by_keyframes(search, map);
+  if (fix && refine(search, map, *fix)) return fix;
+  return std::nullopt;
 }
 
 void Tracker::Impl::count_sightings(const std::vector<PointId>& in_view,
@@ -331,19 +386,12 @@ TrackResult Tracker::track(const std::shared_ptr<const Features>& features,
     return result;
   }
   impl_->follow_map(map);
-  const FrameSearch search(impl_->model, map, *features);
-  std::optional<Fix> fix;
-  if (!impl_->lost) fix = impl_->fix_by_last_frame(search, features->stamp_ns);
-  if (!fix) fix = impl_->fix_by_keyframes(search, map);
+  const std::optional<Fix> fix = impl_->find_fix(*features, map);
   if (!fix) {
-    impl_->lose(result, "no keyframe matches the view");
+    impl_->lose(result, "neither the last frame nor a keyframe matches the view");
     return result;
   }
   result.matches = fix->matches.count();
-  if (!impl_->refine(search, map, *fix)) {
-    impl_->lose(result, "too few inliers: " + std::to_string(fix->inliers));
-    return result;
-  }
   impl_->accept(features, map, *fix, result);
   if (impl_->filter.has_new_mask()) {
     for (const SnapshotPoint& point : map.points) {
