@@ -51,8 +51,7 @@ function(tsg_component_test name)
                                              TSG_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   add_test(NAME ${name}
            COMMAND ${CMAKE_SOURCE_DIR}/tests/support/own_host $<TARGET_FILE:${name}>)
-  set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT}
-    ENVIRONMENT "TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/tsan.supp")
+  set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
 endfunction()
 
 function(tsg_add_test_executable name sources link)

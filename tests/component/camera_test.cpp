@@ -11,6 +11,7 @@
 #include "common/bus/convert.hpp"
 #include "common/bus/diagnostics.hpp"
 #include "tests/component/camera_process.hpp"
+#include "tests/support/stop_limit.hpp"
 #include "tests/support/synthetic_sequence.hpp"
 #include "tests/support/test_bus.hpp"
 
@@ -193,12 +194,12 @@ TEST_F(Camera, SigtermEndsItWithinTwoSecondsWhateverItDoes) {
   CameraProcess sending(folder_.path(), {"camera.replay.loop=true"});
   ASSERT_TRUE(take()) << sending.log();
   sending.child().signal(SIGTERM);
-  EXPECT_EQ(sending.exit_code(2s), 0) << sending.log();
+  EXPECT_EQ(sending.exit_code(kStopLimit), 0) << sending.log();
 
   CameraProcess waiting(folder_.path(), {"camera.wait_for_subscribers=5"});
   ASSERT_TRUE(bus_.watch<topics::Diagnostics>(10s)) << waiting.log();
   waiting.child().signal(SIGTERM);
-  EXPECT_EQ(waiting.exit_code(2s), 0) << waiting.log();
+  EXPECT_EQ(waiting.exit_code(kStopLimit), 0) << waiting.log();
 }
 
 TEST_F(Camera, SaysOnceASecondHowItIs) {

@@ -21,6 +21,7 @@
 #include "common/bus/convert.hpp"
 #include "common/bus/diagnostics.hpp"
 #include "tests/component/map_server_process.hpp"
+#include "tests/support/stop_limit.hpp"
 #include "tests/support/test_bus.hpp"
 
 namespace tsg::test {
@@ -194,7 +195,7 @@ TEST_F(MapServer, StopsWithinTwoSecondsOfSigtermWhileKeyframesWait) {
   ASSERT_TRUE(save(out_.path(), 1));  // it works
   for (std::uint64_t seq = 1; seq < 8; ++seq) send(seq);
   server_.child().signal(SIGTERM);
-  EXPECT_EQ(server_.exit_code(2s), 0);
+  EXPECT_EQ(server_.exit_code(kStopLimit), 0);
   EXPECT_THAT(server_.log(), HasSubstr("stopped"));
 }
 

@@ -18,6 +18,7 @@
 #include "common/bus/diagnostics.hpp"
 #include "common/core/time.hpp"
 #include "tests/support/running_segmentation.hpp"
+#include "tests/support/stop_limit.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/test_bus.hpp"
 #include "tests/support/tiny_yolo_seg.hpp"
@@ -217,14 +218,14 @@ TEST_F(SegmentationService, StopsWithinTwoSecondsInTheMiddleOfANetwork) {
   const auto early = bus_.wait_for<topics::Instances>(500ms, [](const auto&) { return true; });
   ASSERT_FALSE(early.has_value());  // the network is at work
   service.process().signal(SIGTERM);
-  EXPECT_EQ(service.exit_code(2s), 0) << service.output();
+  EXPECT_EQ(service.exit_code(kStopLimit), 0) << service.output();
 }
 
 TEST_F(SegmentationService, StopsWithinTwoSecondsWhileItWaitsForFrames) {
   RunningSegmentation service(model({}));
   ASSERT_TRUE(is_working(service)) << service.output();
   service.process().signal(SIGTERM);
-  EXPECT_EQ(service.exit_code(2s), 0) << service.output();
+  EXPECT_EQ(service.exit_code(kStopLimit), 0) << service.output();
 }
 
 TEST_F(SegmentationService, WorksAtALowerPriorityThanTracking) {
