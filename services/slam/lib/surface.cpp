@@ -44,7 +44,7 @@ std::optional<SurfacePatch> fit_patch(const Surface& surface,
                                       double sigma) {
   const double centre = surface.at(column, row);
   if (centre <= 0.0) return std::nullopt;
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   int fitted = 0;
   for (int y = row - kFitRadius; y <= row + kFitRadius; ++y) {
@@ -52,17 +52,15 @@ std::optional<SurfacePatch> fit_patch(const Surface& surface,
       const double value = surface.at(x, y);
       const double step = std::max(std::abs(x - column), std::abs(y - row)) * kStepPerCell * centre;
       if (value <= 0.0 || std::abs(value - centre) > kMaxFitSigmas * sigma + step) continue;
-      const Eigen::Vector3d ray =
-          rays[static_cast<std::size_t>(y * surface.columns + x)].homogeneous();
-      A += ray * ray.transpose();
+      const Eigen::Vector3d ray = rays[surface.index(x, y)].homogeneous();
+      H += ray * ray.transpose();
       b += ray * value;
       ++fitted;
     }
   }
   if (fitted < kMinFitted) return std::nullopt;
-  const Eigen::Vector3d plane = A.ldlt().solve(b);
-  const Eigen::Vector3d ray =
-      rays[static_cast<std::size_t>(row * surface.columns + column)].homogeneous();
+  const Eigen::Vector3d plane = H.ldlt().solve(b);
+  const Eigen::Vector3d ray = rays[surface.index(column, row)].homogeneous();
   const double inverse_depth = plane.dot(ray);
   if (!(inverse_depth > 0.0) || std::abs(inverse_depth - centre) > kMaxFitSigmas * sigma) {
     return std::nullopt;
@@ -80,7 +78,7 @@ Surface sample_surface(const RgbdFrame& frame,
   Surface surface{.columns = (frame.depth.cols - 1) / kSurfaceCell + 1,
                   .rows = (frame.depth.rows - 1) / kSurfaceCell + 1,
                   .inverse_depths = {}};
-  surface.inverse_depths.reserve(static_cast<std::size_t>(surface.columns * surface.rows));
+  surface.inverse_depths.reserve(surface.index(0, surface.rows));
   const double nearest = config.min_depth_m * frame.depth_units_per_metre;
   const double farthest = config.max_depth_m * frame.depth_units_per_metre;
   for (int y = 0; y < frame.depth.rows; y += kSurfaceCell) {
@@ -106,8 +104,7 @@ PatchGrid::PatchGrid(const CameraModel& camera, const Surface& surface, const Fe
     for (int column = kFitRadius; column + kFitRadius < columns_; ++column) {
       const auto patch = fit_patch(surface, rays, column, row, config.inverse_depth_sigma);
       if (!patch) continue;
-      patch_of_cell_[static_cast<std::size_t>(row * columns_ + column)] =
-          static_cast<int>(patches_.size());
+      patch_of_cell_[surface.index(column, row)] = static_cast<int>(patches_.size());
       patches_.push_back(*patch);
     }
   }
@@ -119,7 +116,8 @@ const SurfacePatch* PatchGrid::find(const Eigen::Vector2d& pixel,
   const int column = static_cast<int>(std::lround(pixel.x() / kSurfaceCell)) + columns_beside;
   const int row = static_cast<int>(std::lround(pixel.y() / kSurfaceCell)) + rows_beside;
   if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return nullptr;
-  const int patch = patch_of_cell_[static_cast<std::size_t>(row * columns_ + column)];
+  const int cell = row * columns_ + column;
+  const int patch = patch_of_cell_[static_cast<std::size_t>(cell)];
   return patch < 0 ? nullptr : &patches_[static_cast<std::size_t>(patch)];
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -18,9 +19,11 @@ struct Surface {
   int rows = 0;
   std::vector<float> inverse_depths;  ///< 1/m, row by row; 0 where nothing usable was seen
 
-  [[nodiscard]] float at(int column, int row) const {
-    return inverse_depths[static_cast<std::size_t>(row * columns + column)];
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    const int cell = row * columns + column;
+    return static_cast<std::size_t>(cell);
   }
+  [[nodiscard]] float at(int column, int row) const { return inverse_depths[index(column, row)]; }
 };
 
 /// Samples the depth image. `verdicts` is empty or has a FeatureVerdict per pixel; cells on
