@@ -13,7 +13,8 @@ namespace tsg::topics {
 struct Rgbd {
   using Message = tsg_RgbdFrame;
   static constexpr const char* kName = "tsg/rgbd";
-  static constexpr Qos kQos{.domain = Domain::kSharedMemory, .keep_last = 4};
+  // Tracking may fall a quarter of a second behind, on a busy machine, before it misses a frame.
+  static constexpr Qos kQos{.domain = Domain::kSharedMemory, .keep_last = 8};
 };
 
 struct Instances {

@@ -171,7 +171,7 @@ void SegmentationNode::publish_diagnostics() {
 std::string SegmentationNode::report() const {
   nlohmann::json report = counters_.to_json();
   report["provider"] = provider_->name();
-  // Both were left unread: the first by us, the second by the bus, whose queue holds four.
+  // Both were left unread: the first by us, the second by the bus, whose queue is short.
   report["passed_over"] = frames_.passed_over() + frames_.missed();
   return report.dump();
 }
