@@ -207,7 +207,8 @@ TEST_F(SegmentationService, AnswersTheNewestOfABurstAndPassesTheOthersOver) {
   ASSERT_TRUE(mask_of(kFrames).has_value()) << service.output();
   const nlohmann::json reported = report();
   const auto answered = reported.at("frames").get<std::uint64_t>();
-  EXPECT_LE(answered, 3U);  // the one before the burst, perhaps its first, its last
+  // The one before the burst, its last, and what a slow sender lets it have in between.
+  EXPECT_LE(answered, kFrames / 2);
   EXPECT_EQ(answered + reported.at("passed_over").get<std::uint64_t>(), kFrames);
 }
 
