@@ -1,23 +1,17 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <string>
 #include <vector>
 
+#include "common/render/lamp.hpp"
 #include "common/render/mesh.hpp"
 #include "common/simulation/scene.hpp"
 
 namespace tsg::simulation {
 
-/// A rectangle that gives light: a lamp panel or a window.
-struct Lamp {
-  Eigen::Vector3f centre_m;
-  Eigen::Vector3f half_side_a_m;
-  Eigen::Vector3f half_side_b_m;
-  Eigen::Vector3f normal;        ///< where it shines
-  Eigen::Vector3f radiance_bgr;  ///< linear light; 1 x 1 m of 1.0 gives about 1.0 at 1 m
-};
+using render::Lamp;
 
-/// A door leaf, window pane or the shell of all rooms: fixed parts of the building.
+/// What of a scene is built in and never moves.
 struct Building {
   render::Mesh shell;       ///< floors, walls with holes, ceilings, skirting, frames, panes, leaves
   std::vector<Lamp> lamps;  ///< ceiling panels and windows

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/render/stage.hpp"
+
+namespace tsg::render {
+
+/// Radiance (linear BGR) that the surface at a sighting sends back along `ray`: its own light, what
+/// it reflects of the light on it, and on glossy materials the image of lamps. `pixel_angle`
+/// (radians) tells how much of a texture one pixel sees.
+[[nodiscard]] Eigen::Vector3f radiance_towards(const Stage& stage,
+                                               const Sighting& sighting,
+                                               const Ray& ray,
+                                               float pixel_angle);
+
+/// Unit normal there, turned towards the viewer.
+[[nodiscard]] Eigen::Vector3f normal_at(const Stage& stage,
+                                        const Sighting& sighting,
+                                        const Ray& ray);
+
+}  // namespace tsg::render
