@@ -9,6 +9,20 @@ bool CameraModel::is_distorted() const {
   return std::any_of(distortion.begin(), distortion.end(), [](double k) { return k != 0.0; });
 }
 
+CameraModel CameraModel::resized(int new_width, int new_height) const {
+  const double scale_x = static_cast<double>(new_width) / width;
+  const double scale_y = static_cast<double>(new_height) / height;
+  CameraModel scaled = *this;
+  scaled.width = new_width;
+  scaled.height = new_height;
+  scaled.fx = fx * scale_x;
+  scaled.fy = fy * scale_y;
+  // Pixel centres lie at whole numbers, so that the image begins at -0.5.
+  scaled.cx = (cx + 0.5) * scale_x - 0.5;
+  scaled.cy = (cy + 0.5) * scale_y - 0.5;
+  return scaled;
+}
+
 std::vector<std::string> CameraModel::problems() const {
   std::vector<std::string> found;
   if (width <= 0) found.emplace_back("width must be > 0");

@@ -33,6 +33,9 @@ struct CameraModel {
            pixel.y() <= height - 1;
   }
 
+  /// The camera of the same images scaled to another size.
+  [[nodiscard]] CameraModel resized(int new_width, int new_height) const;
+
   /// What makes the model unusable, a sentence each; empty where it is sound.
   [[nodiscard]] std::vector<std::string> problems() const;
 

@@ -17,6 +17,17 @@ TEST(CameraModel, ProjectUndoesUnproject) {
   EXPECT_TRUE(camera.project(camera.unproject(pixel, 2.5)).isApprox(pixel, 1e-12));
 }
 
+TEST(CameraModel, ResizedSeesThePointsOfTheImageInTheSamePlaces) {
+  const CameraModel camera = vga_camera();
+  const CameraModel small = camera.resized(160, 120);
+  EXPECT_EQ(small.width, 160);
+  EXPECT_EQ(small.height, 120);
+  const Eigen::Vector3d p_camera(0.3, -0.2, 2.0);
+  const Eigen::Vector2d from_edge = camera.project(p_camera) + Eigen::Vector2d(0.5, 0.5);
+  const Eigen::Vector2d small_from_edge = small.project(p_camera) + Eigen::Vector2d(0.5, 0.5);
+  EXPECT_TRUE(small_from_edge.isApprox(from_edge / 4.0, 1e-12));
+}
+
 TEST(CameraModel, SoundModelHasNoProblems) { EXPECT_TRUE(vga_camera().problems().empty()); }
 
 TEST(CameraModel, NamesEveryProblemAtOnce) {

@@ -125,6 +125,7 @@ struct SensorDescription {
 /// All of a scene file.
 struct SceneDescription {
   std::string name;
+  std::string description;  ///< a line: what the scene is for
   double duration_s = 10.0;
   std::uint64_t seed = 1;
   std::vector<RoomDescription> rooms;
