@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-#include "services/tsgctl/run/roudi_process.hpp"
+#include "common/app/shipped_files.hpp"
 
 namespace tsg {
 namespace {
@@ -48,7 +48,7 @@ CheckResult check_roudi_program() {
 }
 
 CheckResult check_roudi_config() {
-  const auto config = find_roudi_config();
+  const auto config = find_config_file("roudi.toml");
   if (config) return passed("RouDi configuration", config->string());
   return failed("RouDi configuration", config.error().message, "install TSG-SLAM again");
 }

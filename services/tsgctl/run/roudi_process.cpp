@@ -3,6 +3,7 @@
 #include <chrono>
 #include <string>
 
+#include "common/app/shipped_files.hpp"
 #include "common/bus/roudi.hpp"
 #include "services/tsgctl/run/log_tail.hpp"
 
@@ -22,25 +23,9 @@ std::string log_end(const std::filesystem::path& log_file) {
 
 }  // namespace
 
-std::filesystem::path program_folder() {
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
-}
-
-Expected<std::filesystem::path> find_roudi_config() {
-  const std::filesystem::path installed = program_folder() / "../share/tsg-slam/config/roudi.toml";
-  const std::filesystem::path in_source = TSG_SOURCE_DIR "/config/roudi.toml";
-  for (const auto& candidate : {installed, in_source}) {
-    if (std::filesystem::exists(candidate)) return candidate.lexically_normal();
-  }
-  return make_error(ExitCode::kMissingInput,
-                    "roudi.toml, the configuration of RouDi, is in neither " +
-                        installed.lexically_normal().string() + " nor " + in_source.string() +
-                        "; install TSG-SLAM again, or start iox-roudi yourself");
-}
-
 RoudiProcess::RoudiProcess(const std::filesystem::path& log_file, const std::stop_token& stop) {
   if (check_roudi()) return;
-  const std::filesystem::path config = value_or_throw(find_roudi_config());
+  const std::filesystem::path config = value_or_throw(find_config_file("roudi.toml"));
   ChildCommand command;
   command.program = "iox-roudi";
   command.arguments = {"-c", config.string()};

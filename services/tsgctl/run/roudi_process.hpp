@@ -29,11 +29,4 @@ class RoudiProcess {
   std::optional<ChildProcess> child_;
 };
 
-/// The shipped configuration of RouDi: beside the installed program, else in the source folder.
-/// kMissingInput where there is none.
-[[nodiscard]] Expected<std::filesystem::path> find_roudi_config();
-
-/// The folder that this program lies in.
-[[nodiscard]] std::filesystem::path program_folder();
-
 }  // namespace tsg

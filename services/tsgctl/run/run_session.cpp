@@ -4,6 +4,7 @@
 #include <future>
 
 #include "common/app/config_file.hpp"
+#include "common/app/shipped_files.hpp"
 #include "common/bus/bus_config_file.hpp"
 #include "common/core/time.hpp"
 #include "services/tsgctl/run/accuracy.hpp"

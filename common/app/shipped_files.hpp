@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "common/core/error.hpp"
+
+namespace tsg {
+
+/// The folder that this program lies in.
+[[nodiscard]] std::filesystem::path program_folder();
+
+/// Where shipped configuration may lie: beside the installed program, then in the source folder.
+[[nodiscard]] std::vector<std::filesystem::path> config_folders();
+
+/// A file of config/, e.g. "roudi.toml". kMissingInput, naming where it was looked for.
+[[nodiscard]] Expected<std::filesystem::path> find_config_file(const std::filesystem::path& name);
+
+}  // namespace tsg
