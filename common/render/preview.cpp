@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
 
 #include "common/render/renderer.hpp"
 
@@ -59,14 +60,16 @@ std::vector<Lamp> studio_lamps(const Mesh& mesh) {
 cv::Mat to_srgb(const cv::Mat& radiance, float exposure) {
   static const auto kTable = make_code_table();
   cv::Mat codes(radiance.size(), CV_8UC3);
-  for (int y = 0; y < radiance.rows; ++y) {
-    const auto* const light = radiance.ptr<float>(y);
-    auto* const code = codes.ptr<std::uint8_t>(y);
-    for (int i = 0; i < 3 * radiance.cols; ++i) {
-      const float level = compressed(exposure * light[i]);
-      code[i] = kTable.at(static_cast<std::size_t>(std::min(level, 1.0F) * kCodes));
+  cv::parallel_for_(cv::Range(0, radiance.rows), [&](const cv::Range& rows) {
+    for (int y = rows.start; y < rows.end; ++y) {
+      const auto* const light = radiance.ptr<float>(y);
+      auto* const code = codes.ptr<std::uint8_t>(y);
+      for (int i = 0; i < 3 * radiance.cols; ++i) {
+        const float level = compressed(exposure * light[i]);
+        code[i] = kTable.at(static_cast<std::size_t>(std::min(level, 1.0F) * kCodes));
+      }
     }
-  }
+  });
   return codes;
 }
 

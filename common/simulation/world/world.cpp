@@ -1,0 +1,161 @@
+#include "common/simulation/world/world.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "common/simulation/furniture/room.hpp"
+
+namespace tsg::simulation {
+namespace {
+
+constexpr double kMotionWindowS = 1.0 / 60.0;  // to either side
+constexpr double kStillM = 1e-3;               // in the window: 3 cm/s is no longer standing still
+constexpr double kStillRad = 2e-3;
+
+Prop prop_of(const PlacedObject& object) {
+  return {.T_world_object = object.T_world_object,
+          .seat = object.model.seat,
+          .half_size_m = object.model.half_size_m,
+          .grip_height_m = object.model.grip_height_m};
+}
+
+Expected<void> check_relocations(const std::vector<RelocationDescription>& relocations,
+                                 const std::map<std::string, Prop>& props,
+                                 const std::vector<std::string>& taken_by_people) {
+  for (const RelocationDescription& relocation : relocations) {
+    const std::string& name = relocation.object;
+    if (!props.contains(name)) {
+      return make_error(ExitCode::kBadData,
+                        "there is no object '" + name + "' that could be relocated");
+    }
+    if (std::ranges::find(taken_by_people, name) != taken_by_people.end()) {
+      return make_error(ExitCode::kBadData, "object '" + name +
+                                                "' is relocated, and moved by a "
+                                                "person as well; keep one of both");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<World> World::build(const SceneDescription& scene) {
+  const auto placed = place_objects(scene);
+  if (!placed) return tl::unexpected(placed.error());
+  std::map<std::string, Prop> props;
+  for (const PlacedObject& object : *placed) props[object.description.name] = prop_of(object);
+  auto choreography = Choreography::plan(scene.people, props, scene.seed);
+  if (!choreography) return tl::unexpected(choreography.error());
+  const std::vector<std::string> taken = choreography->moved_objects();
+  if (const auto ok = check_relocations(scene.relocations, props, taken); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  World world(std::move(*choreography));
+  for (const PlacedObject& object : *placed) {
+    world.objects_[object.description.name] = {
+        .on = object.description.on,
+        .T_support_object = object.T_support_object,
+        .relocations = {},
+        .is_taken_by_people = std::ranges::find(taken, object.description.name) != taken.end()};
+  }
+  for (const RelocationDescription& relocation : scene.relocations) {
+    world.objects_.at(relocation.object).relocations.push_back(relocation);
+  }
+  for (auto& [name, object] : world.objects_) {
+    std::ranges::sort(object.relocations, {}, &RelocationDescription::at_s);
+  }
+  Building building = make_building(scene);
+  world.fixed_.push_back({std::move(building.shell), 0});
+  world.lamps_ = std::move(building.lamps);
+  for (const PlacedObject& object : *placed) world.add_object(object);
+  world.add_people(scene.people);
+  return world;
+}
+
+int World::add_instance(const std::string& class_name, const std::string& name, bool is_dynamic) {
+  const int id = static_cast<int>(instances_.size()) + 1;
+  instances_.push_back(
+      {.id = id, .class_name = class_name, .name = name, .is_dynamic = is_dynamic});
+  return id;
+}
+
+void World::add_object(const PlacedObject& object) {
+  const std::string& name = object.description.name;
+  const bool moves = is_moved(name);
+  const int id = add_instance(object.model.class_name, name, moves);
+  render::Part part{.mesh = {}, .tag = static_cast<std::uint16_t>(id)};
+  if (moves) {
+    part.mesh = object.model.mesh;
+    // People come behind all things: their order in the choreography is theirs among the bodies.
+    bodies_.push_back(std::move(part));
+    moved_.push_back(name);
+  } else {
+    part.mesh.append(object.model.mesh, object.T_world_object);
+    fixed_.push_back(std::move(part));
+  }
+}
+
+void World::add_people(const std::vector<PersonDescription>& people) {
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const int id = add_instance("person", people[i].name, true);
+    bodies_.push_back({choreography_.mesh(i), static_cast<std::uint16_t>(id)});
+  }
+}
+
+void World::pose_body(std::size_t body,
+                      double time_s,
+                      std::vector<Eigen::Vector3f>& points,
+                      std::vector<Eigen::Vector3f>& normals) const {
+  if (body >= moved_.size()) {
+    choreography_.pose(body - moved_.size(), time_s, points, normals);
+    return;
+  }
+  const render::Mesh& mesh = bodies_[body].mesh;
+  const SE3 T_world_body = T_world_object(moved_[body], time_s);
+  const Eigen::Matrix3f R_world_body = T_world_body.rotation_matrix().cast<float>();
+  const Eigen::Vector3f t_world_body = T_world_body.translation().cast<float>();
+  points.resize(mesh.points.size());
+  normals.resize(mesh.points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = R_world_body * mesh.points[i] + t_world_body;
+    normals[i] = R_world_body * mesh.normals[i];
+  }
+}
+
+SE3 World::T_world_object(const std::string& name, double time_s) const {
+  const Standing& object = objects_.at(name);
+  if (object.is_taken_by_people) return choreography_.T_world_object(name, time_s);
+  const auto next =
+      std::ranges::upper_bound(object.relocations, time_s, {}, &RelocationDescription::at_s);
+  const SE3 T_support_object =
+      next == object.relocations.begin()
+          ? object.T_support_object
+          : pose_at(std::prev(next)->to, object.T_support_object.translation().z());
+  if (object.on.empty()) return T_support_object;
+  return T_world_object(object.on, time_s) * T_support_object;
+}
+
+bool World::is_moved(const std::string& name) const {
+  const Standing& object = objects_.at(name);
+  return object.moves_itself() || (!object.on.empty() && is_moved(object.on));
+}
+
+bool World::is_moving(const std::string& name, double time_s) const {
+  const SE3 T_before_after = T_world_object(name, time_s - kMotionWindowS).inverse() *
+                             T_world_object(name, time_s + kMotionWindowS);
+  return T_before_after.translation().norm() > kStillM || T_before_after.angle() > kStillRad;
+}
+
+std::vector<int> World::moving(double time_s) const {
+  std::vector<int> ids;
+  for (const SimulatedInstance& instance : instances_) {
+    if (!instance.is_dynamic) continue;
+    if (!objects_.contains(instance.name) || is_moving(instance.name, time_s)) {
+      ids.push_back(instance.id);
+    }
+  }
+  return ids;
+}
+
+}  // namespace tsg::simulation

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/core/error.hpp"
+#include "common/geometry/se3.hpp"
+#include "common/render/lamp.hpp"
+#include "common/render/layer.hpp"
+#include "common/simulation/people/choreography.hpp"
+#include "common/simulation/scene.hpp"
+#include "common/simulation/simulator.hpp"
+#include "common/simulation/world/placement.hpp"
+
+namespace tsg::simulation {
+
+/// The geometry of a scene and how it moves: what stays, the things that are moved, the people.
+class World {
+ public:
+  /// kBadData names what in the scene does not fit.
+  [[nodiscard]] static Expected<World> build(const SceneDescription& scene);
+
+  [[nodiscard]] const std::vector<SimulatedInstance>& instances() const { return instances_; }
+  /// The building and all things that stay, in world axes.
+  [[nodiscard]] const std::vector<render::Part>& fixed() const { return fixed_; }
+  [[nodiscard]] const std::vector<render::Lamp>& lamps() const { return lamps_; }
+  /// Things that are moved, then people.
+  [[nodiscard]] const std::vector<render::Part>& bodies() const { return bodies_; }
+
+  /// World coordinates of a body's points and normals.
+  void pose_body(std::size_t body,
+                 double time_s,
+                 std::vector<Eigen::Vector3f>& points,
+                 std::vector<Eigen::Vector3f>& normals) const;
+
+  /// Ids of what moves at a time, ascending. People always do: they breathe.
+  [[nodiscard]] std::vector<int> moving(double time_s) const;
+
+  /// Where an object of the scene is.
+  [[nodiscard]] SE3 T_world_object(const std::string& name, double time_s) const;
+
+ private:
+  /// How an object comes to its place.
+  struct Standing {
+    std::string on;
+    SE3 T_support_object;
+    std::vector<RelocationDescription> relocations;  ///< by time
+    bool is_taken_by_people = false;
+    [[nodiscard]] bool moves_itself() const { return is_taken_by_people || !relocations.empty(); }
+  };
+
+  explicit World(Choreography choreography) : choreography_(std::move(choreography)) {}
+  void add_object(const PlacedObject& object);
+  void add_people(const std::vector<PersonDescription>& people);
+  [[nodiscard]] int add_instance(const std::string& class_name,
+                                 const std::string& name,
+                                 bool is_dynamic);
+  [[nodiscard]] bool is_moved(const std::string& name) const;
+  [[nodiscard]] bool is_moving(const std::string& name, double time_s) const;
+
+  Choreography choreography_;
+  std::map<std::string, Standing> objects_;
+  std::vector<SimulatedInstance> instances_;
+  std::vector<render::Part> fixed_;
+  std::vector<render::Part> bodies_;
+  std::vector<std::string> moved_;  ///< names of the first bodies
+  std::vector<render::Lamp> lamps_;
+};
+
+}  // namespace tsg::simulation
