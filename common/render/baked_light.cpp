@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <opencv2/core/utility.hpp>
 
 #include "common/render/sampling.hpp"
@@ -10,10 +11,12 @@ namespace tsg::render {
 namespace {
 
 constexpr int kLampSamples = 16;
-constexpr int kBounceRays = 96;
-constexpr float kWorthwhile = 0.01F;  // lamps below this share of the strongest one are left out
-// Bounces beyond the first: a geometric series with the usual reflection of a furnished room, 0.4.
-constexpr float kAllBounces = 1.6F;
+constexpr int kFirstBounceRays = 32;
+constexpr int kSecondBounceRays = 96;  // the visible result: it must not look mottled
+constexpr float kWorthwhile = 0.01F;   // lamps below this share of the strongest one are left out
+// Bounces beyond the second: what is left of a geometric series with the usual reflection of a
+// furnished room, 0.4.
+constexpr float kAllBounces = 1.15F;
 constexpr float kLiftM = 2e-3F;
 
 void for_each(std::size_t count, const std::function<void(std::size_t)>& work) {
@@ -42,8 +45,14 @@ class Baker {
     light_.bounced.resize(count);
     for_each(count, [this](std::size_t i) { add_lamps(i); });
     const std::vector<Eigen::Vector3f> direct = light_.total;
-    for_each(count, [&](std::size_t i) { light_.bounced[i] = kAllBounces * bounced(i, direct); });
-    for (std::size_t i = 0; i < count; ++i) light_.total[i] = direct[i] + light_.bounced[i];
+    for_each(count, [&](std::size_t i) {
+      light_.total[i] = direct[i] + bounced<kFirstBounceRays>(i, direct);
+    });
+    const std::vector<Eigen::Vector3f> once = light_.total;
+    for_each(count, [&](std::size_t i) {
+      light_.bounced[i] = kAllBounces * bounced<kSecondBounceRays>(i, once);
+      light_.total[i] = direct[i] + light_.bounced[i];
+    });
     return std::move(light_);
   }
 
@@ -74,23 +83,24 @@ class Baker {
     for (const LampShare& share : strong) light_.total[i] += share.light;
   }
 
+  /// What the surfaces around throw back at point i, of the light that falls on them.
+  template <int kRays>
   [[nodiscard]] Eigen::Vector3f bounced(std::size_t i,
-                                        const std::vector<Eigen::Vector3f>& direct) const {
+                                        const std::vector<Eigen::Vector3f>& light) const {
     const SurfacePoint point = surface(i);
-    std::array<Ray, kBounceRays> rays;
-    std::array<Hit, kBounceRays> hits;
-    for (int k = 0; k < kBounceRays; ++k) {
+    std::array<Ray, kRays> rays;
+    std::array<Hit, kRays> hits;
+    for (int k = 0; k < kRays; ++k) {
       rays.at(static_cast<std::size_t>(k)) = {
           point.position + kLiftM * point.normal,
-          cosine_direction(point.normal,
-                           spread_point(k, kBounceRays, static_cast<std::uint32_t>(i)))};
+          cosine_direction(point.normal, spread_point(k, kRays, static_cast<std::uint32_t>(i)))};
     }
     layer_.rays.cast(rays, hits);
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     for (const Hit& hit : hits) {
-      if (hit.is_hit()) sum += thrown_back(layer_, hit, direct);
+      if (hit.is_hit()) sum += thrown_back(layer_, hit, light);
     }
-    return sum / static_cast<float>(kBounceRays);
+    return sum / static_cast<float>(kRays);
   }
 
   const Layer& layer_;
@@ -149,13 +159,15 @@ BouncedLightField::Probe BouncedLightField::measure(const Layer& layer,
   layer.rays.cast(rays, hits);
   Probe probe;
   probe.light.fill(Eigen::Vector3f::Zero());
-  int outside = 0;
+  int backs = 0;
   for (std::size_t k = 0; k < kProbeRays; ++k) {
     if (!hits.at(k).is_hit()) continue;
     const Triangle& triangle = layer.mesh.triangles[hits.at(k).triangle];
     const Eigen::Vector3f normal = at_hit(triangle, hits.at(k), layer.mesh.normals);
-    if (normal.dot(rays.at(k).direction) > 0.0F || hits.at(k).distance < kTooCloseM) continue;
-    ++outside;
+    if (normal.dot(rays.at(k).direction) > 0.0F || hits.at(k).distance < kTooCloseM) {
+      ++backs;
+      continue;
+    }
     const Eigen::Vector3f radiance = thrown_back(layer, hits.at(k), light.total);
     for (std::size_t face = 0; face < probe.light.size(); ++face) {
       const float share = axis(face).dot(rays.at(k).direction);
@@ -163,8 +175,8 @@ BouncedLightField::Probe BouncedLightField::measure(const Layer& layer,
       if (share > 0.0F) probe.light.at(face) += 4.0F / kProbeRays * share * radiance;
     }
   }
-  // A probe that mostly sees backs of surfaces sits inside something.
-  probe.weight = 2 * outside > kProbeRays ? 1.0F : 0.0F;
+  // A probe that sees many backs of surfaces sits inside something.
+  probe.weight = 4 * backs < kProbeRays ? 1.0F : 0.0F;
   return probe;
 }
 

@@ -17,8 +17,8 @@ struct BakedLight {
   std::vector<Eigen::Vector3f> total;    ///< all of these together
 };
 
-/// Computes lamps with soft shadows, and light that bounces once (with more bounces estimated from
-/// it). All cores; seconds for a furnished room.
+/// Computes lamps with soft shadows, and light that bounces twice (further bounces are estimated).
+/// All cores; seconds for a furnished room.
 [[nodiscard]] BakedLight bake_light(const Layer& layer, const std::vector<Lamp>& lamps);
 
 /// The light that bounces through the open space of a room, on a grid: for what moves.

@@ -14,7 +14,7 @@ namespace tsg::render {
 /// What a surface looks like, to the eye and to a depth sensor.
 struct Material {
   Eigen::Vector3f colour_bgr = Eigen::Vector3f::Ones();  ///< linear light, 0..1; times the texture
-  std::shared_ptr<const Texture> texture;                ///< null: plain colour
+  std::shared_ptr<const Texture> texture{};              ///< null: plain colour
   float texture_repeats = 1.0F;                          ///< textures per unit of uv
   float emission = 0.0F;      ///< light of its own; 1 = as bright as a well-lit white wall
   float gloss = 0.0F;         ///< strength of the highlight of lamps, 0..1

@@ -74,6 +74,8 @@ struct RayScene::Impl {
                             is_moving ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
     rtcSetGeometryBuildQuality(geometry.get(),
                                is_moving ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
+    // Robust: no ray slips through between two triangles that share an edge.
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     rtcAttachGeometry(scene.get(), geometry.get());
   }
 
