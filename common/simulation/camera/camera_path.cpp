@@ -53,27 +53,36 @@ Expected<CameraPath> CameraPath::make(const CameraPathDescription& description,
     return make_error(ExitCode::kBadData,
                       "the camera has neither waypoints nor a trajectory; give it a waypoint");
   }
+  path.tremor_ = make_tremor(description, seed);
+  return path;
+}
+
+std::vector<CameraPath::Wave> CameraPath::make_tremor(const CameraPathDescription& description,
+                                                      std::uint64_t seed) {
   Random random(seed_of(seed, "tremor"));
-  // The waves' powers add up: each has its share of the variance, sqrt(2) from sine to amplitude.
-  const double share = std::sqrt(2.0 / kTremorWaves);
+  std::vector<Wave> waves;
+  Vector6d squares = Vector6d::Zero();
   for (int i = 0; i < kTremorWaves; ++i) {
     Wave wave{.turns_per_s = random.uniform(0.4, 7.0), .phase_rad = random.uniform(0.0, kTurn)};
-    for (Eigen::Index axis = 0; axis < 6; ++axis) {
-      const double deviation =
-          axis < 3 ? description.tremor_position_m : description.tremor_rotation_rad;
-      wave.amplitude[axis] = share * deviation * random.normal();
-    }
-    path.tremor_.push_back(wave);
+    // Hands shake less at high frequencies.
+    const double strength = 1.0 / (1.0 + 0.3 * wave.turns_per_s);
+    for (double& amplitude : wave.amplitude) amplitude = strength * random.normal();
+    squares += wave.amplitude.cwiseAbs2();
+    waves.push_back(wave);
   }
-  return path;
+  Vector6d deviation;
+  deviation << Eigen::Vector3d::Constant(description.tremor_position_m),
+      Eigen::Vector3d::Constant(description.tremor_rotation_rad);
+  // The waves' powers add up; a sine's standard deviation is its amplitude / sqrt(2).
+  const Vector6d scale = std::sqrt(2.0) * deviation.cwiseQuotient(squares.cwiseSqrt());
+  for (Wave& wave : waves) wave.amplitude = wave.amplitude.cwiseProduct(scale);
+  return waves;
 }
 
 SE3 CameraPath::T_world_camera(double time_s) const {
   Vector6d tremor = Vector6d::Zero();
   for (const Wave& wave : tremor_) {
-    // Hands shake little at high frequencies.
-    tremor += wave.amplitude / (1.0 + 0.3 * wave.turns_per_s) *
-              std::sin(kTurn * wave.turns_per_s * time_s + wave.phase_rad);
+    tremor += wave.amplitude * std::sin(kTurn * wave.turns_per_s * time_s + wave.phase_rad);
   }
   return (recorded_.empty() ? smooth_pose(time_s) : recorded_pose(time_s)) * SE3::exp(tremor);
 }

@@ -30,6 +30,8 @@ class CameraPath {
   };
 
   CameraPath() = default;
+  [[nodiscard]] static std::vector<Wave> make_tremor(const CameraPathDescription& description,
+                                                     std::uint64_t seed);
   [[nodiscard]] SE3 smooth_pose(double time_s) const;
   [[nodiscard]] SE3 recorded_pose(double time_s) const;
 

@@ -105,7 +105,7 @@ void DepthSensor::drop_weak_echoes(const render::Picture& picture,
     const float luck = chance[static_cast<std::size_t>(x)];
     const float echo = (facing[x] - kNoEchoFacing) / (kSureEchoFacing - kNoEchoFacing);
     // 1.5 standard deviations to either side: 93 % of what chance gives.
-    const bool is_too_flat = echo < 0.5F + luck / 3.0F && echo < 1.0F;
+    const bool is_too_flat = echo <= 0.0F || (echo < 0.5F + luck / 3.0F && echo < 1.0F);
     if (returns[x] == 0 || is_too_flat || luck > kSpeckle ||
         (luck > -0.5F && is_silhouette(picture.depth_m, y, x))) {
       raw[x] = 0;
