@@ -1,5 +1,7 @@
 #include "services/tsgctl/run_command.hpp"
 
+#include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -9,6 +11,7 @@
 #include "common/dataset/evaluation.hpp"
 #include "services/tsgctl/bus_options.hpp"
 #include "services/tsgctl/lib/run_summary.hpp"
+#include "services/tsgctl/map/map_picture.hpp"
 #include "services/tsgctl/plot.hpp"
 #include "services/tsgctl/run/run_session.hpp"
 
@@ -28,8 +31,8 @@ Without --segmentation: "model" where --model is given, "dataset" where the inpu
 (mask/ and instances.json), else "off".
 
 Writes trajectory.txt, trajectory_live.txt, keyframes.txt (TUM format), map.ot, map.bt, cloud.ply,
-report.json and logs/ into OUT, and trajectory.png where there is ground truth. Ctrl-C stops
-everything and keeps what there is.
+report.json, logs/ and pictures into OUT: map.png, and trajectory.png where there is ground truth.
+Ctrl-C stops everything and keeps what there is.
 
 Examples:
   tsgctl run --input data/walking_xyz --out out
@@ -70,22 +73,41 @@ SegmentationSource segmentation_of(const RunArguments& arguments) {
                                                  : SegmentationSource::kOff;
 }
 
-/// Draws the trajectory against the truth. A run is as good without the picture, so that a missing
-/// gnuplot is only told.
-void draw_trajectory(const Trajectory& truth, const RunOptions& options, RunReport& report) {
-  const std::filesystem::path path = options.out / "trajectory.png";
-  const auto drawn =
-      read_trajectory(options.out / "trajectory.txt")
-          .and_then([&](const Trajectory& estimate) { return absolute_error(truth, estimate); })
-          .and_then([&](const AbsoluteError& error) {
-            const std::string title = options.input.filename().string();
-            return plot_trajectory({title, truth, error}, path);
-          });
-  if (!drawn) {
-    std::cerr << "trajectory.png is not drawn: " << drawn.error().message << "\n";
+/// Adds a picture to the files of the report. A run is as good without it, so that a failure, for
+/// example a missing gnuplot, is only told.
+void add_picture(const std::string& name,
+                 const std::function<Expected<void>(const std::filesystem::path&)>& draw,
+                 RunReport& report) {
+  const std::filesystem::path path = std::filesystem::path(report.out) / name;
+  if (const auto drawn = draw(path); !drawn) {
+    std::cerr << "tsgctl: warning: " << name << " is not drawn: " << drawn.error().message << "\n";
     return;
   }
-  report.files.push_back({path.filename().string(), std::filesystem::file_size(path)});
+  report.files.push_back({name, std::filesystem::file_size(path)});
+}
+
+Expected<void> draw_trajectory(const Trajectory& truth,
+                               const RunOptions& options,
+                               const std::filesystem::path& png) {
+  return read_trajectory(options.out / "trajectory.txt")
+      .and_then([&](const Trajectory& estimate) { return absolute_error(truth, estimate); })
+      .and_then([&](const AbsoluteError& error) {
+        const std::string title = options.input.filename().string();
+        return plot_trajectory({title, truth, error}, png);
+      });
+}
+
+void draw_pictures(const Sequence& sequence, const RunOptions& options, RunReport& report) {
+  if (sequence.ground_truth && report.accuracy) {
+    add_picture(
+        "trajectory.png",
+        [&](const auto& png) { return draw_trajectory(*sequence.ground_truth, options, png); },
+        report);
+  }
+  if (std::filesystem::exists(options.out / "map.ot")) {
+    add_picture(
+        "map.png", [&](const auto& png) { return draw_map(options.out / "map.ot", png); }, report);
+  }
 }
 
 /// Writes report.json and adds it to the files of the report, for the summary.
@@ -108,9 +130,7 @@ void run(RunArguments& arguments) {
   const Sequence sequence = open_sequence(options);
   RunSession session(options, sequence, signals);
   RunOutcome outcome = session.run();
-  if (sequence.ground_truth && outcome.report.accuracy) {
-    draw_trajectory(*sequence.ground_truth, options, outcome.report);
-  }
+  draw_pictures(sequence, options, outcome.report);
   const Expected<void> written = write_report(outcome.report);
   if (outcome.report.tracking.answered > 0) std::cout << summary_text(outcome.report);
   // The failure that ended the run matters more than one at writing about it.

@@ -14,9 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// All that a run may write, in the order of the summary.
-constexpr std::array<const char*, 8> kFileNames{
-    "trajectory.txt", "trajectory_live.txt", "keyframes.txt",  "map.ot",
-    "map.bt",         "cloud.ply",           "trajectory.png", "report.json"};
+constexpr std::array<const char*, 9> kFileNames{
+    "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ot", "map.bt", "cloud.ply",
+    "map.png",        "trajectory.png",      "report.json"};
 constexpr std::array<const char*, 5> kLogNames{"roudi.log", "segmentation.log", "slam.log",
                                                "map_server.log", "camera.log"};
 
