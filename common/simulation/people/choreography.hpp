@@ -20,10 +20,23 @@ struct Prop {
   std::optional<Seat> seat;
   Eigen::Vector2d half_size_m = Eigen::Vector2d::Zero();
   double grip_height_m = 0.9;
+  double top_m = 0.0;  ///< above its base: where a thing comes to stand that is put down on it
 };
 
 /// What all people do and where the things go that they push and carry, as functions of time.
 /// Deterministic; safe to read from several threads.
+///
+/// * Who sits as the first action and starts within 0.5 m of the seat sits there from the outset;
+///   others walk to the seat and turn. Durations count from when they have come to sit or to face
+///   `yaw_rad`.
+/// * The path of a push is that of the object. One walks behind its back (a thing without a seat:
+///   to the side that the way asks for), turns it about itself where the path sets off elsewhere,
+///   and lets go at the end.
+/// * What is carried is fetched from where it is, at the side from which one comes, and put down
+///   0.5 m ahead after the last action in a row that carries it: on top of the prop that is there,
+///   else on the floor.
+/// * An object serves one person at a time; others wait where they are until it is free.
+/// * Who repeats does so for an hour.
 class Choreography {
  public:
   /// kBadData names the person, the action and what is wrong with it (an unknown object, nothing to
