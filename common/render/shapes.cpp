@@ -62,7 +62,60 @@ void join_seam(Mesh& mesh, std::uint32_t rows, std::uint32_t columns) {
   for (std::uint32_t row = 0; row < rows; ++row) {
     Eigen::Vector3f& first = mesh.normals[row * (columns + 1)];
     Eigen::Vector3f& last = mesh.normals[row * (columns + 1) + columns];
-    first = last = (first + last).normalized();
+    // Where the row shrinks to a point, the last one has no face and hence no normal of its own.
+    const bool is_pole =
+        (mesh.points[row * (columns + 1)] - mesh.points[row * (columns + 1) + 1]).isZero(1e-9F);
+    first = last = is_pole ? first : Eigen::Vector3f((first + last).normalized());
+  }
+}
+
+/// A face of a box around the origin that is to be rounded.
+struct SharpFace {
+  int axis = 0;  ///< which it looks along
+  float side = 1.0F;
+  Eigen::Vector3f half;
+  float radius = 0.0F;
+  int flat_steps = 1;
+};
+
+/// Where a face is cut along one of its sides: densely where it will bend by 45 degrees at either
+/// end, `flat_steps` times in between.
+std::vector<float> cuts_along(float half, float radius, int flat_steps) {
+  constexpr int kBendSteps = 2;
+  const float flat = half - radius;
+  std::vector<float> cuts;
+  for (int i = kBendSteps; i > 0; --i) {
+    const double angle = kTurn / 8.0 * i / kBendSteps;
+    cuts.push_back(-flat - radius * static_cast<float>(std::tan(angle)));
+  }
+  for (int i = 0; i <= flat_steps; ++i) {
+    cuts.push_back(flat * (2.0F * static_cast<float>(i) / static_cast<float>(flat_steps) - 1.0F));
+  }
+  for (std::size_t i = 0; i < kBendSteps; ++i) cuts.push_back(-cuts[kBendSteps - 1 - i]);
+  return cuts;
+}
+
+/// Adds the face as a grid; uv in metres, v down where the face stands upright.
+void add_sharp_face(Mesh& mesh, const SharpFace& face) {
+  const int along = face.axis == 2 ? 0 : (face.axis + 1) % 2;  // lies level
+  const int up = 3 - face.axis - along;
+  const std::vector<float> columns = cuts_along(face.half[along], face.radius, face.flat_steps);
+  const std::vector<float> rows = cuts_along(face.half[up], face.radius, face.flat_steps);
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  Eigen::Vector3f right = Eigen::Vector3f::Unit(along);
+  // Seen from outside, `right` x `up` looks at the viewer.
+  if (right.cross(Eigen::Vector3f::Unit(up))[face.axis] * face.side < 0.0F) right = -right;
+  for (const float row : rows) {
+    for (const float column : columns) {
+      mesh.points.emplace_back(column * right + row * Eigen::Vector3f::Unit(up) +
+                               face.side * face.half[face.axis] * Eigen::Vector3f::Unit(face.axis));
+      mesh.uvs.emplace_back(column, -row);
+    }
+  }
+  mesh.normals.resize(mesh.points.size());
+  const auto width = static_cast<std::uint32_t>(columns.size());
+  for (std::uint32_t row = 0; row + 1 < rows.size(); ++row) {
+    join_rows(mesh, first + row * width, first + (row + 1) * width, width - 1);
   }
 }
 
@@ -85,30 +138,49 @@ Mesh make_box(const Eigen::Vector3f& size_m, const Material& material) {
   return mesh;
 }
 
-Mesh make_rounded_box(const Eigen::Vector3f& size_m, float radius_m, const Material& material) {
-  constexpr int kSteps = 10;  // per face; the outer ones bend
+Mesh make_rounded_box(const Eigen::Vector3f& size_m,
+                      float radius_m,
+                      const Material& material,
+                      int flat_steps) {
   const Eigen::Vector3f half = 0.5F * size_m;
   const float radius = std::min(radius_m, half.minCoeff());
   const Eigen::Vector3f inner = half - Eigen::Vector3f::Constant(radius);
   Mesh mesh = mesh_of(material);
-  Mesh cube = subdivided(make_box(2.0F * half, material), 2.0F * half.maxCoeff() / kSteps);
-  for (std::size_t i = 0; i < cube.points.size(); ++i) {
-    const Eigen::Vector3f point = cube.points[i] - Eigen::Vector3f(0, 0, half.z());
-    const Eigen::Vector3f core = point.cwiseMax(-inner).cwiseMin(inner);
-    const Eigen::Vector3f outwards = point - core;
-    const Eigen::Vector3f normal =
-        outwards.norm() > 1e-6F ? Eigen::Vector3f(outwards.normalized()) : cube.normals[i];
-    cube.normals[i] = normal;
-    cube.points[i] = (outwards.norm() > 1e-6F ? Eigen::Vector3f(core + radius * normal) : point) +
-                     Eigen::Vector3f(0, 0, half.z());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0F, 1.0F})
+      add_sharp_face(mesh, {axis, side, half, radius, flat_steps});
   }
-  return cube;
+  const Eigen::Vector3f middle(0.0F, 0.0F, half.z());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const Eigen::Vector3f core = mesh.points[i].cwiseMax(-inner).cwiseMin(inner);
+    const Eigen::Vector3f normal = (mesh.points[i] - core).normalized();
+    mesh.points[i] = core + radius * normal + middle;
+    mesh.normals[i] = normal;
+  }
+  return mesh;
 }
 
 Mesh make_picture(float width_m, float height_m, const Material& material) {
   Mesh mesh = mesh_of(material);
   const float y = 0.5F * width_m;
   add_quad(mesh, {{{0, -y, 0}, {0, y, 0}, {0, y, height_m}, {0, -y, height_m}}}, {0, 1}, {1, 0});
+  return mesh;
+}
+
+Mesh make_disc(float radius_m, int sides, const Material& material) {
+  Mesh mesh = mesh_of(material);
+  mesh.points.emplace_back(Eigen::Vector3f::Zero());
+  for (int i = 0; i < sides; ++i) {
+    const double angle = kTurn * i / sides;
+    mesh.points.emplace_back(radius_m * static_cast<float>(std::cos(angle)),
+                             radius_m * static_cast<float>(std::sin(angle)), 0.0F);
+  }
+  mesh.normals.assign(mesh.points.size(), Eigen::Vector3f::UnitZ());
+  for (const Eigen::Vector3f& point : mesh.points) mesh.uvs.emplace_back(point.x(), -point.y());
+  const auto corners = static_cast<std::uint32_t>(sides);
+  for (std::uint32_t i = 0; i < corners; ++i) {
+    mesh.triangles.push_back({{0, i + 1, (i + 1) % corners + 1}, 0});
+  }
   return mesh;
 }
 

@@ -13,14 +13,19 @@ namespace tsg::render {
 /// A box centred in x and y that stands on z = 0.
 [[nodiscard]] Mesh make_box(const Eigen::Vector3f& size_m, const Material& material);
 
-/// The same with rounded vertical and horizontal edges (cushions, housings).
+/// The same with rounded edges (cushions, housings). `flat_steps`: into how many parts the flat
+/// middle of each face is cut, for who bends it further.
 [[nodiscard]] Mesh make_rounded_box(const Eigen::Vector3f& size_m,
                                     float radius_m,
-                                    const Material& material);
+                                    const Material& material,
+                                    int flat_steps = 1);
 
 /// An upright rectangle in the y-z plane that faces +x, centred on y = 0, standing on z = 0; uv
 /// runs 0..1 with v down: pictures, screens.
 [[nodiscard]] Mesh make_picture(float width_m, float height_m, const Material& material);
+
+/// A round face in the x-y plane that faces +z, centred on the origin; uv in metres.
+[[nodiscard]] Mesh make_disc(float radius_m, int sides, const Material& material);
 
 /// One point of an outline: radius from the z axis at a height.
 struct OutlinePoint {
