@@ -278,7 +278,7 @@ void Actor::take(const std::string& name) {
 void Actor::put_down() {
   PlannedProp& prop = stage_.at(held_->prop);
   const double half_depth = held_->to_m.x() - 0.22 * role_.skeleton.scale;
-  const double ahead = std::max(kPutDownAhead_m, half_depth + 0.36 * role_.skeleton.scale);
+  const double ahead = std::max(kPutDownAhead_m, half_depth + 0.3 * role_.skeleton.scale);
   held_->to_m = {ahead, 0.0, stage_.support_z_m(moved_by(here_, {ahead, 0.0}), held_->prop)};
   stay(std::max(0.8, (held_->to_m - held_->from_m).norm() / kHandSpeed), Gesture::kIdle, 0.01);
   held_.reset();

@@ -17,14 +17,15 @@ render::Material textured(const cv::Mat& image, float gloss) {
 }
 
 std::vector<render::Material> make_materials(const Look& look) {
-  // In the order of BodyMaterial. Sizes in metres: what u and v of 1 are on the body.
+  const render::Material bottom = textured(paint_bottom(look), 0.0F);
+  // In the order of BodyMaterial.
   return {textured(paint_skin(look), 0.04F),
           textured(paint_face(look), 0.04F),
-          textured(paint_hair(look), 0.10F),
+          textured(paint_hair(look), 0.03F),
           textured(paint_top(look), 0.0F),
           textured(paint_cloth(look.top_cloth, {0.34, kSleeveTexture_m}), 0.0F),
-          textured(paint_bottom(look), 0.0F),
-          textured(look.bottom == Bottom::kSkirt ? paint_tights(look) : paint_bottom(look), 0.02F),
+          bottom,
+          look.bottom == Bottom::kSkirt ? textured(paint_tights(look), 0.02F) : bottom,
           textured(paint_shoe(look), 0.12F)};
 }
 

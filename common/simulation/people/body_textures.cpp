@@ -135,9 +135,13 @@ cv::Mat paint_bottom(const Look& look) {
     cv::line(image, {x, 0}, {x, image.rows}, seam, 2, cv::LINE_AA);
     cv::line(image, {x + 4, 0}, {x + 4, image.rows}, thread, 1, cv::LINE_AA);
   }
-  for (const double u : {0.12, 0.88, 0.36, 0.64}) {
-    const int x = static_cast<int>(u * image.cols);
-    cv::rectangle(image, cv::Rect(x - 26, 60, 52, 60), thread, 2, cv::LINE_AA);
+  // A back pocket, across the seam of the texture, and the slanting edges of front ones.
+  for (const int x : {-34, image.cols - 34}) {
+    cv::rectangle(image, cv::Rect(x, 62, 68, 62), thread, 2, cv::LINE_AA);
+  }
+  for (const int sign : {-1, 1}) {
+    const int middle = image.cols / 2;
+    cv::line(image, {middle + sign * 70, 40}, {middle + sign * 118, 105}, thread, 2, cv::LINE_AA);
   }
   return image;
 }

@@ -88,10 +88,11 @@ Expected<Choreography> Choreography::plan(const std::vector<PersonDescription>& 
   auto impl = std::make_unique<Impl>();
   std::vector<Actor> actors;
   actors.reserve(people.size());
+  std::vector<Look> looks;
   for (const PersonDescription& person : people) {
-    const Look look = make_look(look_of(person, seed));
+    looks.push_back(make_look(look_of(person, seed)));
+    const Look& look = looks.back();
     const Skeleton skeleton = make_skeleton(person.height_m, look.shoulder_width, look.hip_width);
-    impl->bodies.push_back(make_body(skeleton, look));
     actors.emplace_back(
         Actor::Role{actors.size(), person, skeleton, seed_of(seed, "moves of " + person.name)},
         stage);
@@ -99,7 +100,10 @@ Expected<Choreography> Choreography::plan(const std::vector<PersonDescription>& 
   if (auto planned = plan_all(actors, stage); !planned) {
     return tl::unexpected<Error>(planned.error());
   }
-  for (Actor& actor : actors) impl->timelines.push_back(actor.take_timeline());
+  for (std::size_t i = 0; i < actors.size(); ++i) {
+    impl->timelines.push_back(actors[i].take_timeline());
+    impl->bodies.push_back(make_body(impl->timelines.back().skeleton(), looks[i]));
+  }
   impl->props = stage.all();
   return Choreography(std::move(impl));
 }

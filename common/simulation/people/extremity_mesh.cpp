@@ -33,7 +33,7 @@ struct Finger {
 };
 
 void add_finger(const HandAxes& hand, const Finger& finger, SkinnedMesh& mesh) {
-  constexpr int kJoints = 4;
+  constexpr int kJoints = 3;
   std::vector<Ring> rings;
   for (int i = kJoints; i >= 0; --i) {
     const float along = static_cast<float>(i) / kJoints;
@@ -45,7 +45,7 @@ void add_finger(const HandAxes& hand, const Finger& finger, SkinnedMesh& mesh) {
     rings.push_back({centre, radius, radius, radius, hand.skin});
   }
   TubeStyle style;
-  style.sides = 8;
+  style.sides = 6;
   style.depth = hand.ahead;
   style.side = hand.left;
   style.material = material_of(BodyMaterial::kSkin);
@@ -73,7 +73,7 @@ void add_hand(const Skeleton& skeleton, Side side, SkinnedMesh& mesh) {
                 2.4F};
   };
   TubeStyle style;
-  style.sides = 14;
+  style.sides = 12;
   style.depth = hand.ahead;
   style.side = hand.left;
   style.material = material_of(BodyMaterial::kSkin);
@@ -127,10 +127,10 @@ void add_shoe(const Skeleton& skeleton, Side side, SkinnedMesh& mesh) {
   TubeStyle style;
   style.depth = Eigen::Vector3f::UnitZ();
   style.side = -Eigen::Vector3f::UnitY();
-  style.sides = 22;
+  style.sides = 18;
   style.material = material_of(BodyMaterial::kShoes);
   style.texture_height_m = 0.3F * scale;
-  const std::size_t first = add_tube(mesh, refined(rings, 2), style);
+  const std::size_t first = add_tube(mesh, rings, style);
   for (std::size_t i = first; i < mesh.rest.points.size(); ++i) {
     mesh.rest.points[i].z() = std::max(mesh.rest.points[i].z(), 0.0F);  // a flat sole
   }

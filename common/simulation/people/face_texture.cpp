@@ -57,11 +57,16 @@ void paint_soft_parts(const Look& look, const FacePainter& face) {
   face.ellipse({0.0, 1.588}, {0.015, 0.004}, tinted(look.skin, {0.74, 0.74, 0.80}));
   face.ellipse({0.0, 1.549}, {0.020, 0.004}, tinted(look.skin, {0.80, 0.80, 0.85}));
   if (!look.has_beard) return;
-  const cv::Scalar hair = tinted(look.hair_colour, {1.1, 1.1, 1.1});
-  face.ellipse({0.0, 1.535}, {0.052, 0.026}, hair);
-  face.ellipse({0.0, 1.580}, {0.027, 0.008}, hair);
-  for (const double side : {-1.0, 1.0})
-    face.line({side * 0.05, 1.54}, {side * 0.066, 1.62}, hair, 22);
+  const auto stubble = [&look](double hair) {
+    const cv::Vec3b mix = look.skin * (1.0 - hair) + look.hair_colour * hair;
+    return cv::Scalar(mix[0], mix[1], mix[2]);
+  };
+  face.ellipse({0.0, 1.528}, {0.070, 0.044}, stubble(0.55));
+  face.ellipse({0.0, 1.531}, {0.036, 0.020}, stubble(0.8));
+  for (const double side : {-1.0, 1.0}) {
+    face.ellipse({side * 0.042, 1.592}, {0.023, 0.024}, tinted(look.skin, {1.0, 1.0, 1.0}));
+  }
+  face.ellipse({0.0, 1.580}, {0.026, 0.006}, stubble(0.8));
 }
 
 void paint_eye(const Look& look, double side, const FacePainter& face) {
@@ -110,7 +115,7 @@ cv::Mat paint_face(const Look& look) {
   if (look.has_glasses) paint_glasses(face);
   for (int row = 0; row < kSide; ++row) {
     for (int column = 0; column < kSide; ++column) {
-      const double spots = 0.94 + 0.12 * noise(look.seed + 20, column / 5.0, row / 5.0);
+      const double spots = 0.97 + 0.06 * noise(look.seed + 20, column / 5.0, row / 5.0);
       image.at<cv::Vec3b>(row, column) *= spots;
     }
   }

@@ -84,9 +84,9 @@ void talk(const Skeleton& skeleton, const GestureMoment& moment, Posture& postur
 void wave(const Skeleton& skeleton, const GestureMoment& moment, Posture& posture) {
   rest_hand(skeleton, Side::kLeft, moment, posture);
   const double swing = std::sin(2.0 * kPi * 1.5 * moment.time_s + phase_of(moment.seed));
-  place_hand(skeleton, Side::kRight, {{0.20, 0.30 + 0.13 * swing, 0.42 - 0.03 * swing}, 1.2},
+  place_hand(skeleton, Side::kRight, {{0.16, 0.42 + 0.10 * swing, 0.40 - 0.03 * swing}, 0.9},
              posture);
-  posture.elbows_towards[index_of(Side::kRight)] = {-0.2, -0.8, -0.6};
+  posture.elbows_towards[index_of(Side::kRight)] = {-0.4, -0.5, -0.9};
 }
 
 void point_out(const Skeleton& skeleton, const GestureMoment& moment, Posture& posture) {
@@ -99,8 +99,8 @@ void point_out(const Skeleton& skeleton, const GestureMoment& moment, Posture& p
 }
 
 void type(const Skeleton& skeleton, const GestureMoment& moment, Posture& posture) {
-  const double ahead = moment.is_seated ? 0.40 : 0.33;
-  const double height = moment.is_seated ? -0.22 : -0.12;
+  const double ahead = moment.is_seated ? 0.36 : 0.33;
+  const double height = moment.is_seated ? -0.07 : -0.12;
   for (const Side side : kBothSides) {
     const std::uint64_t seed = mixed(moment.seed + 21 + index_of(side));
     const double tap = 0.008 * std::sin(2.0 * kPi * 2.7 * moment.time_s + phase_of(seed));

@@ -13,12 +13,11 @@ constexpr std::size_t kHead = index_of(Bone::kHead);
 constexpr std::size_t kNeck = index_of(Bone::kNeck);
 constexpr std::size_t kChest = index_of(Bone::kChest);
 
-std::vector<Ring> head_rings(float scale, float extra_m) {
+std::vector<Ring> head_rings(float scale) {
   std::vector<Ring> rings;
   for (const HeadLevel& level : head_levels()) {
-    rings.push_back({scale * Eigen::Vector3f(level.x, 0.0F, level.z),
-                     scale * (level.half_width + extra_m), scale * (level.front + extra_m),
-                     scale * (level.back + extra_m), skin_of(kHead), 2.15F});
+    rings.push_back({scale * Eigen::Vector3f(level.x, 0.0F, level.z), scale * level.half_width,
+                     scale * level.front, scale * level.back, skin_of(kHead), 2.15F});
   }
   return rings;
 }
@@ -51,7 +50,7 @@ void shape_face(float scale, std::size_t first, SkinnedMesh& mesh) {
                                               {0.0, 1.532, 0.018, 0.012, 0.006}}};
   for (std::size_t i = first; i < mesh.rest.points.size(); ++i) {
     const Eigen::Vector3f point = mesh.rest.points[i] / scale;
-    double u = mesh.rest.uvs[i].x();
+    const double u = mesh.rest.uvs[i].x();
     mesh.rest.uvs[i].y() = static_cast<float>(face_v(point.z()));
     if (std::abs(u - 0.5) > 0.24) continue;
     double height = 0.0;
@@ -119,10 +118,10 @@ double hairline_m(const Look& look, double angle) {
 void add_hair_cap(const Look& look, float scale, SkinnedMesh& mesh) {
   const double thickness = look.hair == Hair::kCropped ? 0.005 : 0.014;
   TubeStyle style;
-  style.sides = 48;
+  style.sides = 40;
   style.material = material_of(BodyMaterial::kHair);
   style.texture_height_m = 0.25F * scale;
-  const std::size_t first = add_tube(mesh, refined(head_rings(scale, 0.0F), 2), style);
+  const std::size_t first = add_tube(mesh, refined(head_rings(scale), 2), style);
   const Eigen::Vector3f middle = scale * Eigen::Vector3f(-0.005F, 0.0F, 1.64F);
   for (std::size_t i = first; i < mesh.rest.points.size(); ++i) {
     Eigen::Vector3f& point = mesh.rest.points[i];
@@ -162,10 +161,10 @@ void add_hanging_hair(const Look& look, float scale, SkinnedMesh& mesh) {
   rings.push_back(ring(1.65F, 0.094F, 0.136F, skin_of(kHead)));
   rings.push_back(ring(1.69F, 0.084F, 0.122F, skin_of(kHead)));
   TubeStyle style;
-  style.sides = 32;
+  style.sides = 26;
   style.material = material_of(BodyMaterial::kHair);
   style.texture_height_m = 0.25F * scale;
-  add_tube(mesh, refined(rings, 3), style);
+  add_tube(mesh, refined(rings, 2), style);
 }
 
 void add_bun(float scale, SkinnedMesh& mesh) {
@@ -190,9 +189,9 @@ void add_bun(float scale, SkinnedMesh& mesh) {
 void add_head(const Skeleton& skeleton, const Look& look, SkinnedMesh& mesh) {
   const auto scale = static_cast<float>(skeleton.scale);
   TubeStyle style;
-  style.sides = 56;
+  style.sides = 48;
   style.material = material_of(BodyMaterial::kFace);
-  const std::size_t first = add_tube(mesh, refined(head_rings(scale, 0.0F), 3), style);
+  const std::size_t first = add_tube(mesh, refined(head_rings(scale), 2), style);
   shape_face(scale, first, mesh);
   add_neck(scale, look.is_feminine ? 0.88F : 1.0F, mesh);
   add_hair_cap(look, scale, mesh);

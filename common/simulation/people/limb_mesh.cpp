@@ -70,7 +70,7 @@ std::vector<Station> leg_stations(bool is_bare) {
           {0.10F, 0.089F, 0.092F, 0.102F},  {-0.02F, 0.078F, 0.086F, 0.096F}};
 }
 
-/// From the wrist up to the inside of the shoulder; `begin`: how far down it reaches.
+/// From the wrist (of a short sleeve: from above the elbow) up to the inside of the shoulder.
 std::vector<Station> arm_stations(const Look& look, bool is_bare) {
   if (is_bare) {
     return {{0.545F, 0.022F, 0.029F, 0.029F}, {0.48F, 0.025F, 0.032F, 0.031F},
@@ -80,11 +80,11 @@ std::vector<Station> arm_stations(const Look& look, bool is_bare) {
   }
   const bool is_short = look.top == Top::kTShirt;
   const float loose = look.top == Top::kShirt ? 0.0F : 0.005F;
-  const std::vector<Station> upper{{0.20F, 0.052F, 0.054F, 0.056F},
-                                   {0.12F, 0.056F, 0.060F, 0.062F},
-                                   {0.05F, 0.060F, 0.068F, 0.068F},
-                                   {0.00F, 0.058F, 0.070F, 0.070F},
-                                   {-0.035F, 0.046F, 0.058F, 0.060F}};
+  const std::vector<Station> upper{
+      {0.20F, 0.052F, 0.054F, 0.056F},  {0.12F, 0.054F, 0.059F, 0.061F},
+      {0.06F, 0.053F, 0.062F, 0.063F},  {0.03F, 0.047F, 0.060F, 0.061F},
+      {0.005F, 0.037F, 0.053F, 0.054F}, {-0.015F, 0.026F, 0.042F, 0.043F},
+      {-0.03F, 0.014F, 0.026F, 0.027F}};
   std::vector<Station> all;
   if (!is_short) {
     all = {{0.535F, 0.036F + loose, 0.038F + loose, 0.038F + loose},
@@ -111,7 +111,7 @@ void add_leg(const Skeleton& skeleton, const Look& look, Side side, SkinnedMesh&
                      leg_skin(side, station.down), 2.1F});
   }
   TubeStyle style;
-  style.sides = 22;
+  style.sides = 18;
   style.material = material_of(BodyMaterial::kLegs);
   style.texture_height_m = kBottomTexture_m * scale;
   add_tube(mesh, rings, style);
@@ -122,21 +122,21 @@ void add_arm(const Skeleton& skeleton, const Look& look, Side side, SkinnedMesh&
   const auto girth = scale * static_cast<float>(look.girth);
   const Eigen::Vector3f shoulder = skeleton.joint(side, LimbBone::kUpperArm).cast<float>();
   const Eigen::Vector3f along = rest_arm_direction(side).cast<float>();
-  const auto inwards = static_cast<float>(-sign_of(side));
+  const Eigen::Vector3f left = (-along).cross(Eigen::Vector3f::UnitX());
+  const Eigen::Vector3f inwards = static_cast<float>(-sign_of(side)) * left;
   const auto add = [&](bool is_bare, BodyMaterial material) {
     std::vector<Ring> rings;
     for (const Station& station : refined_stations(arm_stations(look, is_bare), 2)) {
-      Eigen::Vector3f centre = shoulder + scale * station.down * along;
-      // The end inside the shoulder goes level towards the neck, not up through it.
-      if (station.down < 0.0F) {
-        centre = shoulder + scale * station.down * Eigen::Vector3f(0.0F, -1.4F * inwards, -0.1F);
-      }
+      // The end in the shoulder bends inwards, which makes it round.
+      const float above = std::max(0.0F, 0.05F - station.down);
+      const Eigen::Vector3f centre =
+          shoulder + scale * (station.down * along + 5.0F * above * above * inwards);
       rings.push_back({centre, girth * station.half_width, girth * station.front,
                        girth * station.back, arm_skin(side, station.down), 2.1F});
     }
     TubeStyle style;
-    style.sides = 20;
-    style.side = (-along).cross(Eigen::Vector3f::UnitX());
+    style.sides = 16;
+    style.side = left;
     style.material = material_of(material);
     style.texture_height_m = kSleeveTexture_m * scale;
     add_tube(mesh, rings, style);

@@ -51,9 +51,9 @@ std::vector<Ring> with_caps(const std::vector<Ring>& rings) {
   const Ring& first = rings.front();
   const Ring& last = rings.back();
   std::vector<Ring> result;
-  for (const float share : {1.0F, 0.85F, 0.5F}) result.push_back(cap_ring(first, rings[1], share));
+  for (const float share : {1.0F, 0.75F}) result.push_back(cap_ring(first, rings[1], share));
   result.insert(result.end(), rings.begin(), rings.end());
-  for (const float share : {0.5F, 0.85F, 1.0F}) {
+  for (const float share : {0.75F, 1.0F}) {
     result.push_back(cap_ring(last, rings[rings.size() - 2], share));
   }
   return result;

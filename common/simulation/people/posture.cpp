@@ -97,7 +97,7 @@ void solve_arm(const Skeleton& skeleton, const Posture& posture, Side side, Bone
   const Eigen::Vector3d elbow = shoulder + skeleton.upper_arm_m * arm.upper;
   const Eigen::Vector3d wrist = elbow + skeleton.lower_arm_m * arm.lower;
   const auto turned = [&](double share) -> Eigen::Matrix3d {
-    const double angle = -sign_of(side) * share * posture.palms_rad.at(i);
+    const double angle = sign_of(side) * share * posture.palms_rad.at(i);
     return Eigen::AngleAxisd(angle, arm.lower) * (bone_axes(arm.lower, arm.hinge) * rest);
   };
   bones.at(index_of(side, LimbBone::kUpperArm)) = {bone_axes(arm.upper, arm.hinge) * rest,

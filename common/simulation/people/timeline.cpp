@@ -35,9 +35,9 @@ void reach_for(const Skeleton& skeleton,
   const Eigen::Vector3d grip = base_m + Eigen::Vector3d(-held.grip_back_m, 0, held.grip_height_m);
   const double low = std::clamp(
       (kLowestUpright_m * skeleton.scale - grip.z()) / (0.75 * skeleton.scale), 0.0, 1.0);
-  posture.pelvis_m += skeleton.scale * low * Eigen::Vector3d(-0.14, 0.0, -0.34);
+  posture.pelvis_m += skeleton.scale * low * Eigen::Vector3d(-0.14, 0.0, -0.38);
   posture.pelvis_rpy.y() += 0.45 * low;
-  posture.spine_rpy.y() += 0.55 * low;
+  posture.spine_rpy.y() += 0.42 * low;
   const double distance = (grip - chest_of(skeleton, posture).translation()).norm();
   const double lean = std::clamp(1.6 * (distance / skeleton.scale - kEasyReach_m), 0.0, 0.7);
   posture.spine_rpy.y() += lean;

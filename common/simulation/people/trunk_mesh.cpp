@@ -38,14 +38,13 @@ std::vector<Ring> to_rings(const std::vector<Level>& levels, float scale, float 
 /// Hips and seat of trousers.
 void add_hips(float scale, float girth, SkinnedMesh& mesh) {
   const Skin pelvis = skin_of(kPelvis);
-  const std::vector<Level> levels{{0.815F, -0.005F, 0.105F, 0.070F, 0.085F, pelvis},
-                                  {0.850F, -0.005F, 0.158F, 0.098F, 0.122F, pelvis},
-                                  {0.900F, -0.005F, 0.174F, 0.106F, 0.130F, pelvis},
-                                  {0.960F, -0.005F, 0.168F, 0.106F, 0.116F, pelvis},
-                                  {1.020F, -0.005F, 0.154F, 0.102F, 0.100F, pelvis},
-                                  {1.060F, -0.005F, 0.146F, 0.098F, 0.095F, pelvis}};
+  const std::vector<Level> levels{{0.835F, -0.005F, 0.100F, 0.066F, 0.088F, pelvis},
+                                  {0.860F, -0.005F, 0.152F, 0.090F, 0.120F, pelvis},
+                                  {0.905F, -0.005F, 0.172F, 0.102F, 0.130F, pelvis},
+                                  {0.955F, -0.005F, 0.165F, 0.104F, 0.114F, pelvis},
+                                  {0.995F, -0.005F, 0.142F, 0.094F, 0.092F, pelvis}};
   TubeStyle style;
-  style.sides = 28;
+  style.sides = 24;
   style.material = material_of(BodyMaterial::kBottom);
   style.texture_height_m = kBottomTexture_m * scale;
   add_tube(mesh, refined(to_rings(levels, scale, girth), 2), style);
@@ -58,13 +57,13 @@ void add_skirt(float scale, float girth, SkinnedMesh& mesh) {
                                   {0.640F, 0.0F, 0.212F, 0.152F, 0.165F, pelvis},
                                   {0.760F, 0.0F, 0.202F, 0.136F, 0.154F, pelvis},
                                   {0.880F, -0.005F, 0.186F, 0.117F, 0.138F, pelvis},
-                                  {0.960F, -0.005F, 0.171F, 0.110F, 0.120F, pelvis},
-                                  {1.060F, -0.005F, 0.146F, 0.100F, 0.097F, pelvis}};
+                                  {0.955F, -0.005F, 0.166F, 0.106F, 0.116F, pelvis},
+                                  {0.995F, -0.005F, 0.142F, 0.094F, 0.092F, pelvis}};
   TubeStyle style;
-  style.sides = 32;
+  style.sides = 28;
   style.material = material_of(BodyMaterial::kBottom);
   style.texture_height_m = kBottomTexture_m * scale;
-  const std::size_t first = add_tube(mesh, refined(to_rings(levels, scale, girth), 4), style);
+  const std::size_t first = add_tube(mesh, refined(to_rings(levels, scale, girth), 3), style);
   for (std::size_t i = first; i < mesh.skins.size(); ++i) {
     const Eigen::Vector3f point = mesh.rest.points[i] / scale;
     const double thighs = eased((0.95 - point.z()) / 0.2);
@@ -113,17 +112,17 @@ std::vector<Level> shirt_levels(const Look& look) {
       level(1.395F, -0.015F, {0.184F * shoulder, 0.100F, 0.110F}, skin_of(kChest)),
       level(1.435F, -0.018F, {0.158F * shoulder, 0.080F, 0.094F}, skin_of(kChest)),
       level(1.465F, -0.018F, {0.110F, 0.066F, 0.078F}, skin_between(kChest, kNeck, 0.2F)),
-      level(1.485F, -0.016F, {0.070F, 0.062F, 0.066F}, skin_between(kChest, kNeck, 0.4F))};
+      level(1.478F, -0.016F, {0.068F, 0.060F, 0.064F}, skin_between(kChest, kNeck, 0.4F))};
 }
 
 /// A collar or neckband around the neck.
 void add_collar(const Look& look, float scale, SkinnedMesh& mesh) {
   const bool stands = look.top == Top::kShirt || look.top == Top::kJacket;
-  const float height = stands ? 0.034F : 0.014F;
+  const float height = stands ? 0.020F : 0.004F;
   const Skin skin = skin_between(kChest, kNeck, 0.4F);
-  const std::vector<Level> levels{{1.468F, -0.016F, 0.078F, 0.068F, 0.071F, skin},
-                                  {1.480F + 0.4F * height, -0.013F, 0.070F, 0.066F, 0.066F, skin},
-                                  {1.480F + height, -0.012F, 0.066F, 0.065F, 0.063F, skin}};
+  const std::vector<Level> levels{{1.462F, -0.016F, 0.080F, 0.069F, 0.073F, skin},
+                                  {1.474F + 0.4F * height, -0.013F, 0.070F, 0.066F, 0.066F, skin},
+                                  {1.474F + height, -0.012F, 0.066F, 0.065F, 0.063F, skin}};
   TubeStyle style;
   style.material = material_of(BodyMaterial::kSleeve);
   style.texture_height_m = kSleeveTexture_m * scale;
@@ -141,11 +140,11 @@ void add_trunk(const Skeleton& skeleton, const Look& look, SkinnedMesh& mesh) {
     add_hips(scale, girth, mesh);
   }
   TubeStyle style;
-  style.sides = 36;
+  style.sides = 30;
   style.material = material_of(BodyMaterial::kTop);
   style.texture_height_m = kTopTexture_m * scale;
   const std::size_t first =
-      add_tube(mesh, refined(to_rings(shirt_levels(look), scale, girth), 3), style);
+      add_tube(mesh, refined(to_rings(shirt_levels(look), scale, girth), 2), style);
   soften_shoulders(scale, first, mesh);
   add_collar(look, scale, mesh);
 }

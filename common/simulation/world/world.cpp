@@ -17,7 +17,8 @@ Prop prop_of(const PlacedObject& object) {
   return {.T_world_object = object.T_world_object,
           .seat = object.model.seat,
           .half_size_m = object.model.half_size_m,
-          .grip_height_m = object.model.grip_height_m};
+          .grip_height_m = object.model.grip_height_m,
+          .top_m = object.model.top_m};
 }
 
 Expected<void> check_relocations(const std::vector<RelocationDescription>& relocations,

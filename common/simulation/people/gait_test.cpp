@@ -1,0 +1,130 @@
+#include "common/simulation/people/gait.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "common/simulation/people/posture.hpp"
+
+namespace tsg::simulation {
+namespace {
+
+constexpr double kStep_s = 1.0 / 120.0;
+
+struct WalkCase {
+  double speed_mps;
+  std::vector<Eigen::Vector2d> corners;
+};
+
+class GaitOfAWalk : public ::testing::TestWithParam<WalkCase> {
+ protected:
+  [[nodiscard]] Posture posture_at(double time_s) const {
+    return gait_.at(skeleton_, route_, profile_.along_m(time_s));
+  }
+  /// The lowest corner of the sole of a foot: heel or ball.
+  [[nodiscard]] Eigen::Vector3d contact(double time_s, Side side, double ahead_m) const {
+    const BonePoses bones = solve(skeleton_, posture_at(time_s));
+    const FloorPose place = route_.person_at(profile_.along_m(time_s));
+    const Eigen::Vector3d ankle = skeleton_.joint(side, LimbBone::kFoot);
+    const Eigen::Vector3d sole{ahead_m, ankle.y(), 0.0};
+    const Eigen::Vector3d in_person = bones.at(index_of(side, LimbBone::kFoot)) * (sole - ankle);
+    const Eigen::Vector2d in_world = moved_by(place, in_person.head<2>());
+    return {in_world.x(), in_world.y(), in_person.z()};
+  }
+
+  Skeleton skeleton_ = make_skeleton(1.75, 1.0, 1.0);
+  Route route_{RoundedPath(GetParam().corners), {}};
+  SpeedProfile profile_{route_.length_m(), GetParam().speed_mps};
+  Gait gait_{skeleton_, route_, GetParam().speed_mps, true};
+};
+
+TEST_P(GaitOfAWalk, FootOnTheFloorDoesNotSlide) {
+  const double heel = -0.045;
+  const double ball = 0.125;
+  for (const Side side : kBothSides) {
+    for (const double ahead : {heel, ball}) {
+      double slid = 0.0;
+      Eigen::Vector3d before = contact(0.0, side, ahead);
+      for (double time = kStep_s; time < profile_.duration_s(); time += kStep_s) {
+        const Eigen::Vector3d now = contact(time, side, ahead);
+        const bool is_down = now.z() < 0.002 && before.z() < 0.002;
+        slid = is_down ? slid + (now - before).head<2>().norm() : 0.0;
+        ASSERT_LT(slid, 0.02) << "at " << time << " s, sole at " << ahead;
+        before = now;
+      }
+    }
+  }
+}
+
+TEST_P(GaitOfAWalk, OneFootIsAlwaysOnTheFloorAndNoneBelow) {
+  for (double time = 0.0; time < profile_.duration_s(); time += kStep_s) {
+    double lowest = 1.0;
+    for (const Side side : kBothSides) {
+      for (const double ahead : {-0.045, 0.125}) {
+        lowest = std::min(lowest, contact(time, side, ahead).z());
+      }
+    }
+    ASSERT_NEAR(lowest, 0.0, 0.012) << "at " << time << " s";
+  }
+}
+
+TEST_P(GaitOfAWalk, PelvisStaysAtAPlausibleHeight) {
+  for (double time = 0.0; time < profile_.duration_s(); time += kStep_s) {
+    const double height =
+        solve(skeleton_, posture_at(time))[index_of(Bone::kPelvis)].translation().z();
+    ASSERT_GT(height, 0.80) << "at " << time << " s";
+    ASSERT_LT(height, 0.96) << "at " << time << " s";
+  }
+}
+
+TEST_P(GaitOfAWalk, BeginsAndEndsStanding) {
+  const Posture standing = standing_posture(skeleton_);
+  for (const double time : {0.0, profile_.duration_s()}) {
+    const Posture posture = posture_at(time);
+    for (const Side side : kBothSides) {
+      const std::size_t i = index_of(side);
+      EXPECT_LT((posture.feet.at(i).ankle_m - standing.feet.at(i).ankle_m).norm(), 1e-6);
+      EXPECT_LT((posture.wrists_m.at(i) - standing.wrists_m.at(i)).norm(), 0.02);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Walks,
+                         GaitOfAWalk,
+                         ::testing::Values(WalkCase{1.1, {{0, 0}, {6, 0}}},
+                                           WalkCase{0.5, {{0, 0}, {2, 0}, {2, 2}}},
+                                           WalkCase{1.6, {{0, 0}, {5, 0}, {5, -4}, {1, -4}}},
+                                           WalkCase{1.1, {{0, 0}, {0.4, 0}}}));
+
+TEST(RoundedPath, TurnsLittleByLittleAndEndsAtTheLastCorner) {
+  const RoundedPath path({{0, 0}, {3, 0}, {3, 3}, {0, 3.5}});
+  double before = path.heading_rad(0.0);
+  Eigen::Vector2d place = path.position_m(0.0);
+  for (double along = 0.01; along <= path.length_m(); along += 0.01) {
+    ASSERT_LT(std::abs(path.heading_rad(along) - before), 0.04);
+    ASSERT_NEAR((path.position_m(along) - place).norm(), 0.01, 1e-4);
+    before = path.heading_rad(along);
+    place = path.position_m(along);
+  }
+  EXPECT_LT((path.position_m(path.length_m()) - Eigen::Vector2d(0, 3.5)).norm(), 1e-9);
+}
+
+TEST(SpeedProfile, StartsAndStopsGentlyAndNeverGoesFaster) {
+  for (const double length : {0.05, 0.5, 8.0}) {
+    const SpeedProfile profile(length, 1.2);
+    double before = 0.0;
+    for (double time = 0.01; time < profile.duration_s(); time += 0.01) {
+      const double now = profile.along_m(time);
+      ASSERT_GE(now, before);
+      ASSERT_LE((now - before) / 0.01, 1.2001);
+      before = now;
+    }
+    EXPECT_LT(profile.along_m(0.01), 1e-4);
+    EXPECT_DOUBLE_EQ(profile.along_m(profile.duration_s()), length);
+  }
+}
+
+}  // namespace
+}  // namespace tsg::simulation
