@@ -66,7 +66,8 @@ class Renderer::Frame {
         to_open_(shot.T_world_open.inverse().to_isometry().cast<float>()),
         to_close_(shot.T_world_close.inverse().to_isometry().cast<float>()),
         pixel_angle_(static_cast<float>(1.0 / camera_.fx)),
-        sightings_(directions_.size()) {
+        sightings_(directions_.size()),
+        normals_(directions_.size()) {
     for (int y = 0; y < camera_.height; ++y) {
       const double share = camera_.height > 1 ? static_cast<double>(y) / (camera_.height - 1) : 0.5;
       eyes_.emplace_back(between(shot.T_world_first_row, shot.T_world_last_row, share));
@@ -119,12 +120,12 @@ class Renderer::Frame {
       const Sighting& sighting = sightings_[index(y, x)];
       if (!sighting.hit.is_hit()) continue;
       const Ray sight = ray(y, x);
-      const Eigen::Vector3f light = radiance_towards(stage_, sighting, sight, pixel_angle_);
+      const Eigen::Vector3f normal = normals_[index(y, x)] = normal_at(stage_, sighting, sight);
+      const Eigen::Vector3f light = radiance_towards(stage_, sighting, sight, normal, pixel_angle_);
       picture_.radiance.at<cv::Vec3f>(y, x) = {light.x(), light.y(), light.z()};
       // Directions have z = 1 in camera axes, so that distances along them are depths.
       picture_.depth_m.at<float>(y, x) = sighting.hit.distance;
-      picture_.facing.at<float>(y, x) =
-          -normal_at(stage_, sighting, sight).dot(sight.direction.normalized());
+      picture_.facing.at<float>(y, x) = -normal.dot(sight.direction.normalized());
       const Layer& layer = stage_.layer(sighting.is_body);
       const Triangle& triangle = layer.mesh.triangles[sighting.hit.triangle];
       picture_.tags.at<std::uint16_t>(y, x) = layer.tags[sighting.hit.triangle];
@@ -155,8 +156,7 @@ class Renderer::Frame {
     if (material(a) != material(b)) return true;
     const float nearer = std::min(a.hit.distance, b.hit.distance);
     if (std::abs(a.hit.distance - b.hit.distance) > kEdgeDepthStep * nearer) return true;
-    return normal_at(stage_, a, ray(y, x)).dot(normal_at(stage_, b, ray(other_y, other_x))) <
-           kEdgeTurn;
+    return normals_[index(y, x)].dot(normals_[index(other_y, other_x)]) < kEdgeTurn;
   }
 
   [[nodiscard]] const Material* material(const Sighting& sighting) const {
@@ -186,7 +186,8 @@ class Renderer::Frame {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (!sightings.at(i).hit.is_hit()) continue;
-      sum += radiance_towards(stage_, sightings.at(i), rays.at(i), pixel_angle_);
+      const Eigen::Vector3f normal = normal_at(stage_, sightings.at(i), rays.at(i));
+      sum += radiance_towards(stage_, sightings.at(i), rays.at(i), normal, pixel_angle_);
     }
     sum /= static_cast<float>(rays.size());
     return {sum.x(), sum.y(), sum.z()};
@@ -200,6 +201,7 @@ class Renderer::Frame {
   float pixel_angle_;
   std::vector<Eye> eyes_;  ///< of each row
   std::vector<Sighting> sightings_;
+  std::vector<Eigen::Vector3f> normals_;  ///< of each pixel that sees something
   Picture picture_;
 };
 

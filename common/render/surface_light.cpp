@@ -50,11 +50,11 @@ Eigen::Vector3f normal_at(const Stage& stage, const Sighting& sighting, const Ra
 Eigen::Vector3f radiance_towards(const Stage& stage,
                                  const Sighting& sighting,
                                  const Ray& ray,
+                                 const Eigen::Vector3f& normal,
                                  float pixel_angle) {
   const Layer& layer = stage.layer(sighting.is_body);
   const Triangle& triangle = layer.mesh.triangles[sighting.hit.triangle];
   const Material& material = layer.mesh.materials[triangle.material];
-  const Eigen::Vector3f normal = normal_at(stage, sighting, ray);
   const Eigen::Vector3f sight = ray.direction.normalized();
   Eigen::Vector3f colour = material.colour_bgr;
   if (material.texture) {
