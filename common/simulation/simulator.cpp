@@ -1,8 +1,10 @@
 #include "common/simulation/simulator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <sstream>
 #include <utility>
 
 #include "common/render/preview.hpp"
@@ -20,6 +22,15 @@ namespace {
 constexpr double kMeanLight = 0.2;  // of white: what auto-exposure aims at
 constexpr int kExposureLooks = 6;   // moments of the scene that the exposure is chosen by
 constexpr int kExposureScale = 8;   // pixels left out while looking
+
+constexpr int kViewScale = 2;
+constexpr double kBesideS = 1e-3;
+
+std::string seconds_text(double seconds) {
+  std::ostringstream text;
+  text << seconds;
+  return text.str();
+}
 
 /// The same view with fewer pixels.
 CameraModel scaled_down(CameraModel camera, int factor) {
@@ -98,6 +109,31 @@ struct Simulator::Impl {
     return light > 0.0 ? kMeanLight / light : 1.0;  // in a dark room nothing helps
   }
 
+  /// A thing that jumps before the camera's eyes would be no test of anything.
+  [[nodiscard]] Expected<void> check_relocations() {
+    for (const RelocationDescription& relocation : scene.relocations) {
+      if (!is_in_view(relocation)) continue;
+      return make_error(ExitCode::kBadData,
+                        "object '" + relocation.object + "' is relocated at " +
+                            seconds_text(relocation.at_s) +
+                            " s, while the camera sees it; choose a time when it is out of view");
+    }
+    return {};
+  }
+
+  /// Whether any pixel shows the object just before or just after it is moved.
+  [[nodiscard]] bool is_in_view(const RelocationDescription& relocation) {
+    const render::Renderer small(scaled_down(scene.sensor.camera, kViewScale));
+    const auto instance =
+        std::ranges::find(world.instances(), relocation.object, &SimulatedInstance::name);
+    return std::ranges::any_of(std::array{-kBesideS, kBesideS}, [&](double beside_s) {
+      const double time_s = relocation.at_s + beside_s;
+      pose_bodies(time_s);
+      const render::Shot shot = render::Shot::still(path.T_world_camera(time_s));
+      return cv::countNonZero(small.render(stage, shot).tags == instance->id) > 0;
+    });
+  }
+
   [[nodiscard]] bool is_covered(double time_s) const {
     return std::ranges::any_of(scene.camera.covered_s, [time_s](const auto& span) {
       return time_s >= span.first && time_s < span.second;
@@ -115,7 +151,9 @@ Expected<Simulator> Simulator::build(const SceneDescription& scene) {
   if (!path) return tl::unexpected(path.error());
   auto world = World::build(scene);
   if (!world) return tl::unexpected(world.error());
-  return Simulator(std::make_unique<Impl>(scene, std::move(*path), std::move(*world)));
+  auto impl = std::make_unique<Impl>(scene, std::move(*path), std::move(*world));
+  if (const auto ok = impl->check_relocations(); !ok) return tl::unexpected(ok.error());
+  return Simulator(std::move(impl));
 }
 
 const SceneDescription& Simulator::scene() const { return impl_->scene; }
