@@ -95,7 +95,7 @@ class Baker {
           point.position + kLiftM * point.normal,
           cosine_direction(point.normal, spread_point(k, kRays, static_cast<std::uint32_t>(i)))};
     }
-    layer_.rays.cast(rays, hits);
+    layer_.rays.cast(rays, hits, RayScene::Likeness::kScattered);
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     for (const Hit& hit : hits) {
       if (hit.is_hit()) sum += thrown_back(layer_, hit, light);
@@ -156,7 +156,7 @@ BouncedLightField::Probe BouncedLightField::measure(const Layer& layer,
     rays.at(static_cast<std::size_t>(k)) = {position(index),
                                             sphere_direction(spread_point(k, kProbeRays, 0))};
   }
-  layer.rays.cast(rays, hits);
+  layer.rays.cast(rays, hits, RayScene::Likeness::kScattered);
   Probe probe;
   probe.light.fill(Eigen::Vector3f::Zero());
   int backs = 0;

@@ -125,12 +125,13 @@ void RayScene::move(const std::vector<Eigen::Vector3f>& points) {
   impl_->commit();
 }
 
-void RayScene::cast(std::span<const Ray> rays, std::span<Hit> hits) const {
+void RayScene::cast(std::span<const Ray> rays, std::span<Hit> hits, Likeness likeness) const {
   TSG_CHECK(rays.size() == hits.size());
   std::ranges::fill(hits, Hit{});
   if (is_empty()) return;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
+  if (likeness == Likeness::kAlike) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
     RTCRayHit8 packet;

@@ -44,9 +44,14 @@ class RayScene {
   /// Moves the points of set(), as many as there were.
   void move(const std::vector<Eigen::Vector3f>& points);
 
-  /// The first hit of each ray; `hits` is as long as `rays`. Neighbours should be alike: rays are
-  /// cast eight at a time.
-  void cast(std::span<const Ray> rays, std::span<Hit> hits) const;
+  enum class Likeness {
+    kAlike,
+    kScattered
+  };  ///< rays of neighbouring pixels, or all over the place
+
+  /// The first hit of each ray; `hits` is as long as `rays`. Rays are cast eight at a time, which
+  /// goes faster where neighbours are alike.
+  void cast(std::span<const Ray> rays, std::span<Hit> hits, Likeness likeness) const;
   /// Whether anything stands in the way of each ray.
   void find_blocked(std::span<const Ray> rays, std::span<bool> blocked) const;
   [[nodiscard]] bool is_blocked(const Ray& ray) const;

@@ -27,7 +27,7 @@ TEST(RayScene, FindsTheFirstSurfaceAndWhereOnIt) {
     const float y = -0.95F + 0.19F * static_cast<float>(i);
     rays.at(i) = {{5.0F, y, 0.3F}, {-2.0F, 0.0F, 0.0F}};
   }
-  scene.cast(rays, hits);
+  scene.cast(rays, hits, RayScene::Likeness::kAlike);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     ASSERT_TRUE(hits.at(i).is_hit());
     EXPECT_NEAR(hits.at(i).distance, 2.0F, 1e-5F) << "distances count in lengths of the direction";
@@ -41,7 +41,7 @@ TEST(RayScene, MissesWhatIsBesideOrTooFar) {
   const RayScene scene = box_scene(RayScene::Use::kFixed);
   const std::array<Ray, 2> rays{Ray{{5, 3, 1}, {-1, 0, 0}}, Ray{{5, 0, 1}, {-1, 0, 0}, 3.9F}};
   std::array<Hit, 2> hits;
-  scene.cast(rays, hits);
+  scene.cast(rays, hits, RayScene::Likeness::kAlike);
   EXPECT_FALSE(hits[0].is_hit());
   EXPECT_FALSE(hits[1].is_hit());
   EXPECT_FALSE(scene.is_blocked(rays[1]));

@@ -59,15 +59,15 @@ SE3 between(const SE3& T_world_a, const SE3& T_world_b, double share) {
 /// The work on one picture.
 class Renderer::Frame {
  public:
-  Frame(const Renderer& renderer, Stage& stage, const Shot& shot)
+  Frame(Renderer& renderer, Stage& stage, const Shot& shot)
       : camera_(renderer.camera_),
         directions_(renderer.directions_),
         stage_(stage),
         to_open_(shot.T_world_open.inverse().to_isometry().cast<float>()),
         to_close_(shot.T_world_close.inverse().to_isometry().cast<float>()),
         pixel_angle_(static_cast<float>(1.0 / camera_.fx)),
-        sightings_(directions_.size()),
-        normals_(directions_.size()) {
+        sightings_(renderer.sightings_),
+        normals_(renderer.normals_) {
     for (int y = 0; y < camera_.height; ++y) {
       const double share = camera_.height > 1 ? static_cast<double>(y) / (camera_.height - 1) : 0.5;
       eyes_.emplace_back(between(shot.T_world_first_row, shot.T_world_last_row, share));
@@ -200,15 +200,18 @@ class Renderer::Frame {
   Eigen::Isometry3f to_close_;  ///< T_close_world
   float pixel_angle_;
   std::vector<Eye> eyes_;  ///< of each row
-  std::vector<Sighting> sightings_;
-  std::vector<Eigen::Vector3f> normals_;  ///< of each pixel that sees something
+  std::vector<Sighting>& sightings_;
+  std::vector<Eigen::Vector3f>& normals_;
   Picture picture_;
 };
 
 Renderer::Renderer(const CameraModel& camera)
-    : camera_(camera), directions_(pixel_directions(camera)) {}
+    : camera_(camera),
+      directions_(pixel_directions(camera)),
+      sightings_(directions_.size()),
+      normals_(directions_.size()) {}
 
-Picture Renderer::render(Stage& stage, const Shot& shot) const {
+Picture Renderer::render(Stage& stage, const Shot& shot) {
   return Frame(*this, stage, shot).paint();
 }
 

@@ -37,19 +37,22 @@ struct Picture {
 };
 
 /// Renders a stage for one camera. Pixel centres are whole numbers, lens distortion is the
-/// camera's; edges are supersampled. Deterministic; uses all cores.
+/// camera's; edges are supersampled. Deterministic; uses all cores. Not thread-safe: buffers are
+/// used again from picture to picture.
 class Renderer {
  public:
   explicit Renderer(const CameraModel& camera);
 
   /// Lights up what is seen and paints it.
-  [[nodiscard]] Picture render(Stage& stage, const Shot& shot) const;
+  [[nodiscard]] Picture render(Stage& stage, const Shot& shot);
 
  private:
   class Frame;
 
   CameraModel camera_;
   std::vector<Eigen::Vector3f> directions_;  ///< of each pixel in camera axes, z = 1
+  std::vector<Sighting> sightings_;          ///< of each pixel
+  std::vector<Eigen::Vector3f> normals_;     ///< of each pixel that sees something
 };
 
 }  // namespace tsg::render

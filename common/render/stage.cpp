@@ -88,14 +88,14 @@ void Stage::measure(Extent& extent) const {
 
 void Stage::look(std::span<const Ray> rays, std::span<Sighting> sightings) const {
   std::vector<Hit> hits(rays.size());
-  fixed_.rays.cast(rays, hits);
+  fixed_.rays.cast(rays, hits, RayScene::Likeness::kAlike);
   for (std::size_t i = 0; i < rays.size(); ++i) sightings[i] = {hits[i], false};
   if (bodies_.rays.is_empty()) return;
   std::vector<Ray> rest(rays.begin(), rays.end());
   for (std::size_t i = 0; i < rays.size(); ++i) {
     rest[i].max_distance = std::min(rest[i].max_distance, hits[i].distance);
   }
-  bodies_.rays.cast(rest, hits);
+  bodies_.rays.cast(rest, hits, RayScene::Likeness::kAlike);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].is_hit()) sightings[i] = {hits[i], true};
   }

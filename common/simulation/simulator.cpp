@@ -97,7 +97,7 @@ struct Simulator::Impl {
 
   /// An exposure that suits the whole scene, as a camera with its automatics would settle on.
   [[nodiscard]] double choose_exposure() {
-    const render::Renderer small(scaled_down(scene.sensor.camera, kExposureScale));
+    render::Renderer small(scaled_down(scene.sensor.camera, kExposureScale));
     std::vector<double> means;
     for (int i = 0; i < kExposureLooks; ++i) {
       const double time_s = scene.duration_s * i / kExposureLooks;
@@ -123,7 +123,7 @@ struct Simulator::Impl {
 
   /// Whether any pixel shows the object just before or just after it is moved.
   [[nodiscard]] bool is_in_view(const RelocationDescription& relocation) {
-    const render::Renderer small(scaled_down(scene.sensor.camera, kViewScale));
+    render::Renderer small(scaled_down(scene.sensor.camera, kViewScale));
     const auto instance =
         std::ranges::find(world.instances(), relocation.object, &SimulatedInstance::name);
     return std::ranges::any_of(std::array{-kBesideS, kBesideS}, [&](double beside_s) {
