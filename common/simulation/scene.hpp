@@ -24,15 +24,15 @@ struct FloorPose {
 
 /// A rectangular room; rooms that touch share a wall, which doors open.
 struct RoomDescription {
-  std::string name;
+  std::string name{};
   Eigen::Vector2d min_m = Eigen::Vector2d::Zero();  ///< corner of the floor
   Eigen::Vector2d max_m = Eigen::Vector2d::Zero();  ///< opposite corner
   double height_m = 2.7;
   std::string floor = "carpet";  ///< a surface (furniture/surfaces.hpp)
   std::string walls = "plaster";
-  std::optional<Eigen::Vector3d> wall_colour_rgb;  ///< 0..1; the surface's own where absent
-  int lamps = 4;                                   ///< ceiling panels, evenly spread
-  double brightness = 1.0;                         ///< of the lamps
+  std::optional<Eigen::Vector3d> wall_colour_rgb{};  ///< 0..1; the surface's own where absent
+  int lamps = 4;                                     ///< ceiling panels, evenly spread
+  double brightness = 1.0;                           ///< of the lamps
 };
 
 /// A door or window: the hole is cut into every wall within 0.3 m of `position_m`.
@@ -44,10 +44,10 @@ struct OpeningDescription {
 
 /// A piece of furniture or a thing on it.
 struct ObjectDescription {
-  std::string type;        ///< of the catalogue (furniture/catalogue.hpp), e.g. "office_chair"
-  std::string name;        ///< unique
-  std::string on;          ///< name of what it stands on; empty: the floor
-  FloorPose pose;          ///< in the world, or in the axes of what it stands on
+  std::string type{};      ///< of the catalogue (furniture/catalogue.hpp), e.g. "office_chair"
+  std::string name{};      ///< unique
+  std::string on{};        ///< name of what it stands on; empty: the floor
+  FloorPose pose{};        ///< in the world, or in the axes of what it stands on
   double height_m = 0.0;   ///< bottom above the floor, for things on walls; without `on` only
   std::uint64_t look = 0;  ///< which of its colours and patterns; 0: chosen by name and seed
   std::array<double, 3> scale{1.0, 1.0, 1.0};
@@ -58,32 +58,32 @@ enum class ActionKind { kWalk, kSit, kStand, kPush, kPause };
 /// One thing that a person does; the next begins where and when it ends.
 struct ActionDescription {
   ActionKind kind = ActionKind::kStand;
-  std::vector<Eigen::Vector2d> path_m;  ///< walk, push: corners after the present place
-  double speed_mps = 1.1;               ///< walk, push
-  double duration_s = 0.0;              ///< sit, stand
-  std::string object;                   ///< sit: on what; push: what
-  std::string carry;                    ///< walk, stand: what both hands hold
-  std::string gesture;                  ///< sit, stand: talk, wave, point, type, phone; empty: idle
-  double yaw_rad = 0.0;                 ///< stand: where to turn
+  std::vector<Eigen::Vector2d> path_m{};  ///< walk, push: corners after the present place
+  double speed_mps = 1.1;                 ///< walk, push
+  double duration_s = 0.0;                ///< sit, stand
+  std::string object{};                   ///< sit: on what; push: what
+  std::string carry{};                    ///< walk, stand: what both hands hold
+  std::string gesture{};  ///< sit, stand: talk, wave, point, type, phone; empty: idle
+  double yaw_rad = 0.0;   ///< stand: where to turn
   bool has_yaw = false;
   bool pull = false;  ///< push: walks backwards and drags it along
 };
 
 struct PersonDescription {
-  std::string name;
+  std::string name{};
   double height_m = 1.75;
   std::uint64_t look = 0;  ///< which clothes, hair and skin; 0: chosen by name and seed
-  FloorPose start;
+  FloorPose start{};
   double begin_s = 0.0;  ///< stands still until then
-  std::vector<ActionDescription> actions;
+  std::vector<ActionDescription> actions{};
   bool repeat = false;  ///< begins anew after the last action, walking back first
 };
 
 /// Something that is put elsewhere, at once: to be used while out of view.
 struct RelocationDescription {
-  std::string object;
+  std::string object{};
   double at_s = 0.0;
-  FloorPose to;
+  FloorPose to{};
 };
 
 /// A camera pose to pass through.
@@ -95,11 +95,11 @@ struct CameraWaypoint {
 };
 
 struct CameraPathDescription {
-  std::vector<CameraWaypoint> waypoints;  ///< by time, at least one
-  std::filesystem::path trajectory_file;  ///< TUM trajectory instead of waypoints
-  double tremor_position_m = 0.002;       ///< standard deviation of a hand's tremor
+  std::vector<CameraWaypoint> waypoints{};  ///< by time, at least one
+  std::filesystem::path trajectory_file{};  ///< TUM trajectory instead of waypoints
+  double tremor_position_m = 0.002;         ///< standard deviation of a hand's tremor
   double tremor_rotation_rad = 0.003;
-  std::vector<std::pair<double, double>> covered_s;  ///< from-to: a hand before the lens
+  std::vector<std::pair<double, double>> covered_s{};  ///< from-to: a hand before the lens
 };
 
 /// The Kinect-class sensor: every part can be switched off (docs/simulation.md has the sources).
@@ -124,18 +124,18 @@ struct SensorDescription {
 
 /// All of a scene file.
 struct SceneDescription {
-  std::string name;
-  std::string description;  ///< a line: what the scene is for
+  std::string name{};
+  std::string description{};  ///< a line: what the scene is for
   double duration_s = 10.0;
   std::uint64_t seed = 1;
-  std::vector<RoomDescription> rooms;
-  std::vector<OpeningDescription> doors;
-  std::vector<OpeningDescription> windows;
-  std::vector<ObjectDescription> objects;
-  std::vector<PersonDescription> people;
-  std::vector<RelocationDescription> relocations;
-  CameraPathDescription camera;
-  SensorDescription sensor;
+  std::vector<RoomDescription> rooms{};
+  std::vector<OpeningDescription> doors{};
+  std::vector<OpeningDescription> windows{};
+  std::vector<ObjectDescription> objects{};
+  std::vector<PersonDescription> people{};
+  std::vector<RelocationDescription> relocations{};
+  CameraPathDescription camera{};
+  SensorDescription sensor{};
 };
 
 }  // namespace tsg::simulation
