@@ -85,14 +85,21 @@ class Renderer::Frame {
     for_rows([this](int y) { look(y); });
     stage_.light_up(sightings_);
     for_rows([this](int y) { paint_row(y); });
-    // Into an image of its own: neighbours are still compared with unsmoothed pixels.
-    cv::Mat smoothed = picture_.radiance.clone();
-    for_rows([&](int y) { smooth_edges(y, smoothed); });
-    picture_.radiance = smoothed;
+    edges_.resize(static_cast<std::size_t>(camera_.height));
+    for_rows([this](int y) { look_at_edges(y); });
+    for (const EdgeRow& row : edges_) stage_.light_up(row.sightings);
+    for_rows([this](int y) { smooth_edges(y); });
     return std::move(picture_);
   }
 
  private:
+  /// The edge pixels of one row, with kEdgeSamples rays each.
+  struct EdgeRow {
+    std::vector<int> columns;
+    std::vector<Ray> rays;
+    std::vector<Sighting> sightings;
+  };
+
   template <typename Work>
   void for_rows(const Work& work) const {
     cv::parallel_for_(cv::Range(0, camera_.height), [&](const cv::Range& rows) {
@@ -164,33 +171,40 @@ class Renderer::Frame {
     return &mesh.materials[mesh.triangles[sighting.hit.triangle].material];
   }
 
-  void smooth_edges(int y, cv::Mat& smoothed) const {
+  /// Finds the edges of a row and what is seen around their pixels' centres.
+  void look_at_edges(int y) {
+    EdgeRow& row = edges_[static_cast<std::size_t>(y)];
     for (int x = 0; x < camera_.width; ++x) {
       const bool is_edge = (x + 1 < camera_.width && differ(y, x, y, x + 1)) ||
                            (y + 1 < camera_.height && differ(y, x, y + 1, x)) ||
                            (x > 0 && differ(y, x, y, x - 1)) || (y > 0 && differ(y, x, y - 1, x));
-      if (is_edge) smoothed.at<cv::Vec3f>(y, x) = supersampled(y, x);
+      if (!is_edge) continue;
+      row.columns.push_back(x);
+      for (const auto& [right, down] : kEdgeSamples) {
+        const Eigen::Vector3f offset(right / static_cast<float>(camera_.fx),
+                                     down / static_cast<float>(camera_.fy), 0.0F);
+        row.rays.push_back(
+            eyes_[static_cast<std::size_t>(y)].ray(directions_[index(y, x)] + offset));
+      }
     }
+    row.sightings.resize(row.rays.size());
+    stage_.look(row.rays, row.sightings);
   }
 
-  /// The mean of the samples around a pixel's centre.
-  [[nodiscard]] cv::Vec3f supersampled(int y, int x) const {
-    std::array<Ray, kEdgeSamples.size()> rays;
-    std::array<Sighting, kEdgeSamples.size()> sightings;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const Eigen::Vector3f offset(kEdgeSamples.at(i)[0] / static_cast<float>(camera_.fx),
-                                   kEdgeSamples.at(i)[1] / static_cast<float>(camera_.fy), 0.0F);
-      rays.at(i) = eyes_[static_cast<std::size_t>(y)].ray(directions_[index(y, x)] + offset);
+  /// Paints each edge pixel as the mean of its samples.
+  void smooth_edges(int y) {
+    const EdgeRow& row = edges_[static_cast<std::size_t>(y)];
+    for (std::size_t i = 0; i < row.columns.size(); ++i) {
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      for (std::size_t k = i * kEdgeSamples.size(); k < (i + 1) * kEdgeSamples.size(); ++k) {
+        const Sighting& sighting = row.sightings[k];
+        if (!sighting.hit.is_hit()) continue;
+        const Eigen::Vector3f normal = normal_at(stage_, sighting, row.rays[k]);
+        sum += radiance_towards(stage_, sighting, row.rays[k], normal, pixel_angle_);
+      }
+      sum /= static_cast<float>(kEdgeSamples.size());
+      picture_.radiance.at<cv::Vec3f>(y, row.columns[i]) = {sum.x(), sum.y(), sum.z()};
     }
-    stage_.look(rays, sightings);
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      if (!sightings.at(i).hit.is_hit()) continue;
-      const Eigen::Vector3f normal = normal_at(stage_, sightings.at(i), rays.at(i));
-      sum += radiance_towards(stage_, sightings.at(i), rays.at(i), normal, pixel_angle_);
-    }
-    sum /= static_cast<float>(rays.size());
-    return {sum.x(), sum.y(), sum.z()};
   }
 
   const CameraModel& camera_;
@@ -199,7 +213,8 @@ class Renderer::Frame {
   Eigen::Isometry3f to_open_;   ///< T_open_world
   Eigen::Isometry3f to_close_;  ///< T_close_world
   float pixel_angle_;
-  std::vector<Eye> eyes_;  ///< of each row
+  std::vector<Eye> eyes_;       ///< of each row
+  std::vector<EdgeRow> edges_;  ///< of each row
   std::vector<Sighting>& sightings_;
   std::vector<Eigen::Vector3f>& normals_;
   Picture picture_;

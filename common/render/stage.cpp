@@ -15,24 +15,6 @@ constexpr float kContactReachM = 0.6F;  // within it a body takes bounced light 
 constexpr int kBodyShadowSamples = 4;
 constexpr int kContactRays = 12;
 
-/// Points of the triangles that were seen, each once.
-std::vector<std::size_t> seen_points(const Layer& layer,
-                                     std::span<const Sighting> seen,
-                                     bool bodies) {
-  std::vector<bool> is_seen(layer.mesh.points.size(), false);
-  for (const Sighting& sighting : seen) {
-    if (!sighting.hit.is_hit() || sighting.is_body != bodies) continue;
-    for (const std::uint32_t corner : layer.mesh.triangles[sighting.hit.triangle].corners) {
-      is_seen[corner] = true;
-    }
-  }
-  std::vector<std::size_t> points;
-  for (std::size_t i = 0; i < is_seen.size(); ++i) {
-    if (is_seen[i]) points.push_back(i);
-  }
-  return points;
-}
-
 }  // namespace
 
 Stage::Stage(const std::vector<Part>& fixed,
@@ -50,8 +32,8 @@ Stage::Stage(const std::vector<Part>& fixed,
     openness_.insert(openness_.end(), openness.begin(), openness.end());
   }
   travel_.assign(bodies_.mesh.points.size(), Eigen::Vector3f::Zero());
-  body_light_.assign(bodies_.mesh.points.size(), Eigen::Vector3f::Zero());
-  fixed_light_ = baked_.total;
+  body_light_.light.assign(bodies_.mesh.points.size(), Eigen::Vector3f::Zero());
+  fixed_light_.light = baked_.total;
   update();
 }
 
@@ -71,6 +53,8 @@ void Stage::pose_body(std::size_t body,
 void Stage::update() {
   bodies_.rays.move(bodies_.mesh.points);
   for (Extent& extent : extents_) measure(extent);
+  fixed_light_.is_known.assign(fixed_.mesh.points.size(), false);
+  body_light_.is_known.assign(bodies_.mesh.points.size(), false);
 }
 
 void Stage::measure(Extent& extent) const {
@@ -101,19 +85,35 @@ void Stage::look(std::span<const Ray> rays, std::span<Sighting> sightings) const
   }
 }
 
+void Stage::find_unknown(const Layer& layer,
+                         std::span<const Sighting> seen,
+                         bool of_bodies,
+                         CornerLight& corners) {
+  corners.unknown.clear();
+  for (const Sighting& sighting : seen) {
+    if (!sighting.hit.is_hit() || sighting.is_body != of_bodies) continue;
+    for (const std::uint32_t corner : layer.mesh.triangles[sighting.hit.triangle].corners) {
+      if (corners.is_known[corner]) continue;
+      corners.is_known[corner] = true;
+      corners.unknown.push_back(corner);
+    }
+  }
+}
+
 void Stage::light_up(std::span<const Sighting> seen) {
-  const std::vector<std::size_t> on_fixed = seen_points(fixed_, seen, false);
-  const std::vector<std::size_t> on_bodies = seen_points(bodies_, seen, true);
-  const auto fixed_count = static_cast<int>(on_fixed.size());
-  const auto all_count = fixed_count + static_cast<int>(on_bodies.size());
-  cv::parallel_for_(cv::Range(0, all_count), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) {
-      if (i < fixed_count) {
-        const std::size_t point = on_fixed[static_cast<std::size_t>(i)];
-        fixed_light_[point] = light_on_fixed(point);
+  find_unknown(fixed_, seen, false, fixed_light_);
+  find_unknown(bodies_, seen, true, body_light_);
+  const std::size_t on_fixed = fixed_light_.unknown.size();
+  const std::size_t count = on_fixed + body_light_.unknown.size();
+  cv::parallel_for_(cv::Range(0, static_cast<int>(count)), [&](const cv::Range& range) {
+    for (auto i = static_cast<std::size_t>(range.start); i < static_cast<std::size_t>(range.end);
+         ++i) {
+      if (i < on_fixed) {
+        const std::size_t point = fixed_light_.unknown[i];
+        fixed_light_.light[point] = light_on_fixed(point);
       } else {
-        const std::size_t point = on_bodies[static_cast<std::size_t>(i - fixed_count)];
-        body_light_[point] = light_on_body(point);
+        const std::size_t point = body_light_.unknown[i - on_fixed];
+        body_light_.light[point] = light_on_body(point);
       }
     }
   });
@@ -170,7 +170,7 @@ Eigen::Vector3f Stage::light_on_body(std::size_t index) const {
 
 Eigen::Vector3f Stage::light(const Sighting& sighting) const {
   const Triangle& triangle = layer(sighting.is_body).mesh.triangles[sighting.hit.triangle];
-  return at_hit(triangle, sighting.hit, sighting.is_body ? body_light_ : fixed_light_);
+  return at_hit(triangle, sighting.hit, sighting.is_body ? body_light_.light : fixed_light_.light);
 }
 
 Eigen::Vector3f Stage::travel(const Sighting& sighting) const {

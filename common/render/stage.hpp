@@ -68,8 +68,19 @@ class Stage {
   std::vector<float> openness_;  ///< of each point of the bodies
   std::vector<Extent> extents_;  ///< of each body
   std::vector<Eigen::Vector3f> travel_;
-  std::vector<Eigen::Vector3f> fixed_light_;
-  std::vector<Eigen::Vector3f> body_light_;
+  /// Light on the corners of one layer, for the present poses where `is_known`.
+  struct CornerLight {
+    std::vector<Eigen::Vector3f> light;
+    std::vector<bool> is_known;
+    std::vector<std::size_t> unknown;  ///< to be computed next
+  };
+  static void find_unknown(const Layer& layer,
+                           std::span<const Sighting> seen,
+                           bool of_bodies,
+                           CornerLight& corners);
+
+  CornerLight fixed_light_;
+  CornerLight body_light_;
 };
 
 }  // namespace tsg::render

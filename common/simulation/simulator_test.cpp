@@ -15,13 +15,13 @@ namespace {
 SceneDescription small_scene() {
   SceneDescription scene;
   scene.duration_s = 3.0;
-  scene.rooms = {{.name = "office", .min_m = {0, 0}, .max_m = {5, 4}}};
-  scene.objects = {{.type = "desk", .name = "desk", .pose = {{4.0, 1.0}, 3.14}},
+  scene.rooms = {{.name = "office", .min_m = {0, 0}, .max_m = {4, 3.5}}};
+  scene.objects = {{.type = "desk", .name = "desk", .pose = {{3.3, 1.0}, 3.14}},
                    {.type = "cup", .name = "cup", .on = "desk"},
-                   {.type = "office_chair", .name = "chair", .pose = {{3.2, 1.2}, 0.0}}};
+                   {.type = "office_chair", .name = "chair", .pose = {{2.5, 1.1}, 0.0}}};
   scene.people = {{.name = "anna",
-                   .start = {{3.5, 3.3}, 0.0},
-                   .actions = {{.kind = ActionKind::kWalk, .path_m = {{3.5, 0.6}}}}}};
+                   .start = {{2.9, 3.0}, 0.0},
+                   .actions = {{.kind = ActionKind::kWalk, .path_m = {{2.0, 1.9}}}}}};
   scene.camera.waypoints = {
       {.at_s = 0.0, .position_m = {0.6, 2.0, 1.3}, .look_at_m = {4, 2, 0.9}},
       {.at_s = 3.0, .position_m = {1.4, 1.2, 1.4}, .look_at_m = {4, 1.7, 0.9}}};
@@ -46,7 +46,8 @@ bool is_same(const cv::Mat& a, const cv::Mat& b) {
 /// true poses, and the depths measured there; metres.
 double median_reprojection_error_m(const CameraModel& camera,
                                    const SimulatedFrame& from,
-                                   const SimulatedFrame& to) {
+                                   const SimulatedFrame& to,
+                                   double max_depth_m) {
   const SE3 T_to_from = to.T_world_camera.inverse() * from.T_world_camera;
   const auto is_still = [](const SimulatedFrame& frame, int y, int x) {
     return !std::ranges::binary_search(frame.moving, int{frame.ids.at<std::uint16_t>(y, x)});
@@ -55,7 +56,7 @@ double median_reprojection_error_m(const CameraModel& camera,
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       const auto raw = from.depth.at<std::uint16_t>(y, x);
-      if (raw == 0 || !is_still(from, y, x)) continue;
+      if (raw == 0 || raw > max_depth_m * kDepthUnitsPerMetre || !is_still(from, y, x)) continue;
       const Eigen::Vector3d p_to = T_to_from * camera.unproject({x, y}, raw / kDepthUnitsPerMetre);
       if (p_to.z() < 0.1 || !camera.contains(camera.project(p_to))) continue;
       const Eigen::Vector2d pixel = camera.project(p_to);
@@ -66,7 +67,7 @@ double median_reprojection_error_m(const CameraModel& camera,
       errors_m.push_back(std::abs(measured / kDepthUnitsPerMetre - p_to.z()));
     }
   }
-  EXPECT_GT(errors_m.size(), 5000U);
+  EXPECT_GT(errors_m.size(), 1000U);
   std::ranges::nth_element(errors_m, errors_m.begin() + static_cast<long>(errors_m.size() / 2));
   return errors_m[errors_m.size() / 2];
 }
@@ -77,18 +78,19 @@ TEST(Simulator, TruePosesCarryStillPixelsFromFrameToFrame) {
   Simulator simulator = value_or_throw(Simulator::build(scene));
   for (const int frame : {0, 30, 60}) {
     EXPECT_LT(median_reprojection_error_m(scene.sensor.camera, simulator.render(frame),
-                                          simulator.render(frame + 10)),
+                                          simulator.render(frame + 10), 10.0),
               0.003)
         << "frame " << frame;
   }
 }
 
+// Up to 2 m: beyond, the noise of a Kinect alone (6 mm at 2 m, 13 mm at 3 m, twice) is more.
 TEST(Simulator, TheyDoSoWithinACentimetreDespiteTheSensorsFaults) {
   const SceneDescription scene = small_scene();
   Simulator simulator = value_or_throw(Simulator::build(scene));
   for (const int frame : {0, 30, 60}) {
     EXPECT_LT(median_reprojection_error_m(scene.sensor.camera, simulator.render(frame),
-                                          simulator.render(frame + 10)),
+                                          simulator.render(frame + 10), 2.0),
               0.01)
         << "frame " << frame;
   }

@@ -11,8 +11,11 @@ namespace tsg::simulation {
 namespace {
 
 constexpr double kBaselineM = 0.075;
-constexpr float kDisparityStep = 0.125F;   // pixels
-constexpr float kDisparityNoise = 0.062F;  // pixels, standard deviation
+// Disparity is measured by an infrared camera of its own, whatever the size of the colour image.
+constexpr float kInfraredFocalPx = 580.0F;
+constexpr float kDisparityTimesDepth = kInfraredFocalPx * 0.075F;  // pixel metres
+constexpr float kDisparityStep = 0.125F;                           // pixels
+constexpr float kDisparityNoise = 0.062F;                          // pixels, standard deviation
 constexpr int kPatchPx = 8;  // disparities are found by patches: their errors go together
 constexpr float kSilhouetteStep = 0.03F;  // of the depth
 constexpr float kHiddenPx = 0.75F;        // of the projector's image: overlaps below are rounding
@@ -33,7 +36,7 @@ std::uint16_t to_raw(float depth_m) {
 DepthSensor::DepthSensor(const SensorDescription& sensor, const NoiseTable& noise)
     : sensor_(sensor),
       noise_(noise),
-      focal_times_baseline_(static_cast<float>(sensor.camera.fx * kBaselineM)) {}
+      colour_disparity_(static_cast<float>(sensor.camera.fx * kBaselineM)) {}
 
 cv::Mat DepthSensor::measure(const render::Picture& picture, std::uint64_t frame) const {
   cv::Mat raw(picture.depth_m.size(), CV_16UC1, cv::Scalar(0));
@@ -61,7 +64,7 @@ void DepthSensor::measure_row(const render::Picture& picture,
       noise_.stretch(noise_key(frame, row / kPatchPx, kPatchNoise), width / kPatchPx + 2);
   for (std::size_t x = 0; x < width; ++x) {
     if (depth_m[x] <= 0.0F) continue;
-    float disparity = focal_times_baseline_ / depth_m[x];
+    float disparity = kDisparityTimesDepth / depth_m[x];
     if (sensor_.depth_noise) {
       const float share = static_cast<float>(x % kPatchPx) / kPatchPx;
       const float patch =
@@ -73,7 +76,7 @@ void DepthSensor::measure_row(const render::Picture& picture,
       disparity = kDisparityStep * std::round(disparity / kDisparityStep);
     }
     if (disparity <= 0.0F) continue;
-    const float measured_m = focal_times_baseline_ / disparity;
+    const float measured_m = kDisparityTimesDepth / disparity;
     const bool in_range = measured_m >= static_cast<float>(sensor_.min_depth_m) &&
                           measured_m <= static_cast<float>(sensor_.max_depth_m);
     if (in_range || !sensor_.depth_range) raw_row[x] = to_raw(measured_m);
@@ -86,7 +89,7 @@ void DepthSensor::drop_shadowed(const float* depth_m, std::uint16_t* raw) const 
   float leftmost = std::numeric_limits<float>::infinity();
   for (int x = sensor_.camera.width - 1; x >= 0; --x) {
     if (depth_m[x] <= 0.0F) continue;
-    const float in_projector = static_cast<float>(x) - focal_times_baseline_ / depth_m[x];
+    const float in_projector = static_cast<float>(x) - colour_disparity_ / depth_m[x];
     if (in_projector > leftmost + kHiddenPx) raw[x] = 0;
     leftmost = std::min(leftmost, in_projector);
   }

@@ -31,7 +31,7 @@ class DepthSensor {
 
   SensorDescription sensor_;
   const NoiseTable& noise_;
-  float focal_times_baseline_;  ///< pixel metres: disparity = this / depth
+  float colour_disparity_;  ///< pixel metres: shift of the projector's view in the image * depth
 };
 
 }  // namespace tsg::simulation

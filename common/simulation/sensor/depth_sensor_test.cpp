@@ -65,7 +65,7 @@ TEST(DepthSensor, QuantisesDisparity) {
   SensorDescription sensor = sensor_without_faults();
   sensor.depth_quantisation = true;
   cv::Mat raw = measured(sensor, wall_at(4.03F));
-  const double step_m = 4.0 * 4.0 / (535.4 * 0.075) * 0.125;
+  const double step_m = 4.0 * 4.0 / (580.0 * 0.075) * 0.125;
   EXPECT_EQ(raw.at<std::uint16_t>(0, 0), raw.at<std::uint16_t>(100, 100));
   EXPECT_NEAR(raw.at<std::uint16_t>(0, 0) / kDepthUnitsPerMetre, 4.03, 0.5 * step_m);
   int distinct = 0;
@@ -75,7 +75,7 @@ TEST(DepthSensor, QuantisesDisparity) {
     distinct += value != last ? 1 : 0;
     last = value;
   }
-  EXPECT_NEAR(distinct, 1.0 / (4.5 * 4.5 / (535.4 * 0.075) * 0.125), 3.0);
+  EXPECT_NEAR(distinct, 1.0 / (4.5 * 4.5 / (580.0 * 0.075) * 0.125), 3.0);
 }
 
 TEST(DepthSensor, SeesNothingOutOfRange) {
