@@ -33,12 +33,40 @@ Eigen::Vector3f thrown_back(const Layer& layer,
   return at_hit(triangle, hit, light).cwiseProduct(layer.reflection[triangle.material]);
 }
 
+/// Corners, drawn a little into the faces around them: a corner at the foot of a wall lies on the
+/// floor as well, and rays from there would start inside it.
+std::vector<SurfacePoint> places_of(const Mesh& mesh) {
+  constexpr float kInwards = 0.25F;
+  std::vector<Eigen::Vector3f> centres(mesh.points.size(), Eigen::Vector3f::Zero());
+  std::vector<float> faces(mesh.points.size(), 0.0F);
+  for (const Triangle& triangle : mesh.triangles) {
+    const auto& [a, b, c] = triangle.corners;
+    const Eigen::Vector3f centre = (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3.0F;
+    for (const std::uint32_t corner : triangle.corners) {
+      centres[corner] += centre;
+      faces[corner] += 1.0F;
+    }
+  }
+  std::vector<SurfacePoint> places;
+  places.reserve(mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const Eigen::Vector3f inwards = faces[i] > 0.0F
+                                        ? Eigen::Vector3f(centres[i] / faces[i] - mesh.points[i])
+                                        : Eigen::Vector3f(Eigen::Vector3f::Zero());
+    // Along the surface only: on a bent one the centres lie below it.
+    const Eigen::Vector3f along = inwards - inwards.dot(mesh.normals[i]) * mesh.normals[i];
+    places.push_back({mesh.points[i] + kInwards * along, mesh.normals[i]});
+  }
+  return places;
+}
+
 class Baker {
  public:
   Baker(const Layer& layer, const std::vector<Lamp>& lamps) : layer_(layer), lamps_(lamps) {}
 
   BakedLight bake() {
     const std::size_t count = layer_.mesh.points.size();
+    light_.places = places_of(layer_.mesh);
     light_.strong.resize(count);
     light_.rest.resize(count, Eigen::Vector3f::Zero());
     light_.total.resize(count);
@@ -57,12 +85,8 @@ class Baker {
   }
 
  private:
-  [[nodiscard]] SurfacePoint surface(std::size_t i) const {
-    return {layer_.mesh.points[i], layer_.mesh.normals[i]};
-  }
-
   void add_lamps(std::size_t i) {
-    const SurfacePoint point = surface(i);
+    const SurfacePoint& point = light_.places[i];
     StrongLamps& strong = light_.strong[i] = strongest_lamps(lamps_, point);
     const float worthwhile = kWorthwhile * strong.front().light.sum();
     for (std::uint32_t lamp = 0; lamp < lamps_.size(); ++lamp) {
@@ -87,7 +111,7 @@ class Baker {
   template <int kRays>
   [[nodiscard]] Eigen::Vector3f bounced(std::size_t i,
                                         const std::vector<Eigen::Vector3f>& light) const {
-    const SurfacePoint point = surface(i);
+    const SurfacePoint& point = light_.places[i];
     std::array<Ray, kRays> rays;
     std::array<Hit, kRays> hits;
     for (int k = 0; k < kRays; ++k) {

@@ -11,6 +11,7 @@ namespace tsg::render {
 
 /// The light on the corners of what never moves, as nothing that moves takes any of it away.
 struct BakedLight {
+  std::vector<SurfacePoint> places;      ///< where the light of each corner is computed
   std::vector<StrongLamps> strong;       ///< what the brightest lamps give, with shadows
   std::vector<Eigen::Vector3f> rest;     ///< of the other lamps, with shadows
   std::vector<Eigen::Vector3f> bounced;  ///< from the surfaces around

@@ -128,7 +128,7 @@ float Stage::distance_to_bodies(const Eigen::Vector3f& position) const {
 }
 
 Eigen::Vector3f Stage::light_on_fixed(std::size_t index) const {
-  const SurfacePoint point{fixed_.mesh.points[index], fixed_.mesh.normals[index]};
+  const SurfacePoint& point = baked_.places[index];
   const float distance_m = distance_to_bodies(point.position);
   if (distance_m > kShadowReachM) return baked_.total[index];
   const auto salt = static_cast<std::uint32_t>(index);
