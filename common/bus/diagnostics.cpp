@@ -3,8 +3,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 
 #include "common/bus/convert.hpp"
+#include "common/core/time.hpp"
 
 namespace tsg {
 namespace {
@@ -15,12 +17,6 @@ using KeyValue = diagnostic_msgs_msg_dds__KeyValue_;
 std::string host_name() {
   std::array<char, 256> name{};
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "localhost";
-}
-
-std::int64_t utc_now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
 }
 
 }  // namespace
@@ -46,7 +42,7 @@ Expected<void> DiagnosticsPublisher::publish(const Diagnostic& diagnostic) {
 
   const std::string no_frame;
   topics::Diagnostics::Message message{};
-  message.header.stamp = to_ros_time(utc_now_ns());
+  message.header.stamp = to_ros_time(utc_ns());
   message.header.frame_id = lend(no_frame);
   lend(statuses, message.status);
   return publisher_.publish(message);

@@ -13,6 +13,13 @@ namespace tsg {
       .count();
 }
 
+/// The present in nanoseconds since 1970, UTC.
+[[nodiscard]] inline std::int64_t utc_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
 [[nodiscard]] inline double to_seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 [[nodiscard]] inline double to_milliseconds(std::int64_t ns) {
   return static_cast<double>(ns) * 1e-6;
