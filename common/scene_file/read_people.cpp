@@ -12,12 +12,12 @@ using simulation::PersonDescription;
 using simulation::SceneDescription;
 
 constexpr double kRadians = std::numbers::pi / 180.0;
-constexpr Limits kSpeed{0.1, 4.0};
+constexpr Limits kSpeed{0.1, 2.5};
 constexpr Limits kDuration{0.1, 86'400.0};
 constexpr double kPushSpeed_mps = 0.6;  // furniture slows one down
 
 const std::vector<std::string> kActions{"walk", "sit", "stand", "push", "pull", "pause"};
-const std::vector<std::string> kGestures{"talk", "wave", "point", "type", "phone"};
+const std::vector<std::string> kGestures{"talk", "wave", "point", "type", "phone", "idle"};
 
 /// Reads the actions of one person.
 class ActionReader {

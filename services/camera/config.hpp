@@ -8,11 +8,22 @@
 
 namespace tsg {
 
+/// A simulated room instead of a recording. 0: as the scene says.
+struct SimulationConfig {
+  std::string scene;  ///< a shipped scene, or the path of a file; must be given
+  int seed = 0;
+  int width = 0;  ///< both or neither
+  int height = 0;
+  double rate_hz = 0.0;
+  bool endless = false;  ///< goes on after the scene's duration
+};
+
 /// Section "camera" of the configuration.
 struct CameraConfig {
-  std::string source = "replay";
+  std::string source = "replay";  ///< or "simulation"
   std::string pace = "realtime";  ///< or "lockstep": the next frame when slam has answered
   ReplayConfig replay;
+  SimulationConfig simulation;
   int wait_for_subscribers = 1;  ///< readers of tsg/rgbd before the first frame; 0: do not wait
   double subscriber_timeout_s = 30.0;  ///< slam and segmentation start in a few seconds
   double lockstep_timeout_s = 30.0;    ///< local mapping on a slow machine may take a while

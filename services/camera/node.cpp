@@ -120,13 +120,23 @@ void CameraNode::announce_next() {
 void CameraNode::read_ahead() {
   const auto capacity = static_cast<std::size_t>(config_.read_ahead_frames);
   while (pending_ != nullptr && decoder_.in_flight() < capacity) {
-    if (pacer_ && pacer_->timing(pending_->stamp_ns(), monotonic_ns()) == Timing::kLate) {
+    if (is_too_late()) {
       ++statistics_.frames_late;  // not worth decoding
     } else if (!submit_pending()) {
       return;
     }
     announce_next();
   }
+}
+
+/// Whether the pending frame would be late once it is decoded, after those in flight. A source that
+/// cannot keep up, such as a simulation on a slow machine, would else decode nothing but frames
+/// that are late then.
+bool CameraNode::is_too_late() const {
+  if (!pacer_) return false;
+  const auto before = static_cast<std::int64_t>(decoder_.in_flight());
+  const std::int64_t ready_ns = monotonic_ns() + (before + 1) * usual_decode_ns_;
+  return pacer_->timing(pending_->stamp_ns(), ready_ns) == Timing::kLate;
 }
 
 bool CameraNode::submit_pending() {
@@ -164,6 +174,7 @@ void CameraNode::send_next() {
   if (!frame || is_stopped()) return;
   throw_on_error(frame->decoded);
   statistics_.decode_ms.add(to_milliseconds(frame->decode_ns));
+  usual_decode_ns_ += (frame->decode_ns - usual_decode_ns_) / 4;
   if (!config_.is_lockstep()) {
     send_when_due(std::move(*frame));
     return;

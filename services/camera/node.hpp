@@ -47,6 +47,7 @@ class CameraNode {
   void wait_for(const std::function<bool()>& is_there, const std::string& whom);
   void announce_next();
   void read_ahead();
+  [[nodiscard]] bool is_too_late() const;
   [[nodiscard]] bool submit_pending();
   void wait_for_memory();
   void send_next();
@@ -71,6 +72,7 @@ class CameraNode {
   std::unique_ptr<PendingFrame> pending_;  // announced, not yet being decoded; null at the end
   std::uint64_t pending_seq_ = 0;
   std::uint64_t next_seq_ = 0;
+  std::int64_t usual_decode_ns_ = 0;  // of late
   CameraStatistics statistics_;
   Reported reported_;
 };

@@ -62,6 +62,26 @@ TEST_F(CameraStart, WithValuesOutOfRangeListsThemAll) {
               "read_ahead_frames must be 1 to 7");
 }
 
+TEST_F(CameraStart, WithAnUnknownSceneListsTheOthers) {
+  expect_exit({"camera.source=simulation", "camera.simulation.scene=kitchen"}, 66,
+              "there is no scene \"kitchen\"; known: corridor_loop crowd");
+  expect_exit({"camera.source=simulation", "camera.simulation.scene=/no/room.yaml"}, 66,
+              "there is no file /no/room.yaml");
+}
+
+TEST_F(CameraStart, WithMistakesInASceneNamesFileLineAndKey) {
+  const auto scene = folder_.write("room.yaml", "rooms: []\n");
+  expect_exit({"camera.source=simulation", "camera.simulation.scene=" + scene.string()}, 78,
+              scene.string() + ":1: rooms: must have at least one");
+}
+
+TEST_F(CameraStart, WithoutASceneToSimulateOrWithHalfASizeSaysSo) {
+  expect_exit({"camera.source=simulation", "camera.simulation.width=320"}, 78,
+              "camera.simulation.scene is not set");
+  expect_exit({"camera.source=simulation", "camera.simulation.width=320"}, 78,
+              "camera.simulation.width and .height must be 16 to 1280 and 16 to 720, or both 0");
+}
+
 TEST_F(CameraStart, WithoutAFolderToReplayAsksForOne) {
   expect_exit({"camera.replay.folder=''"}, 78, "camera.replay.folder is not set");
 }
