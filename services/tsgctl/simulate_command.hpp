@@ -4,7 +4,7 @@
 
 namespace tsg {
 
-/// Adds `tsgctl simulate DIR`.
+/// Adds `tsgctl simulate SCENE --out DIR`.
 void add_simulate_command(CLI::App& app);
 
 }  // namespace tsg

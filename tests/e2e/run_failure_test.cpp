@@ -96,7 +96,7 @@ TEST(RunFailure, TruncatedPngIsNamed) {
 TEST(RunFailure, DepthOfAnotherSizeIsNamed) {
   const DamagedRoom room;
   const TempFolder small;
-  write_simulated_sequence(small / "room", {.frames = 5, .width = 320, .height = 240});
+  simulate(small / "room", "demo", {"--frames", "5", "--size", "320x240"});
   const fs::path image = room.fifth_of("depth");
   fs::copy_file(small / "room/depth" / image.filename(), image,
                 fs::copy_options::overwrite_existing);

@@ -11,7 +11,8 @@ namespace {
 using ::testing::HasSubstr;
 
 const std::vector<std::string> kFiles{
-    "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ot", "map.bt", "cloud.ply"};
+    "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "map.ot",
+    "map.bt",         "cloud.ply",           "map.png",       "trajectory.png"};
 
 std::vector<std::string> lockstep(const std::string& segmentation) {
   return {"--pace", "lockstep", "--segmentation", segmentation};
@@ -67,6 +68,48 @@ TEST(RunSimulatedRoom, TwoLockstepRunsGiveTheSameTrajectoryToTheByte) {
   const std::string trajectory = test::content_of(first.out() / "trajectory.txt");
   EXPECT_FALSE(trajectory.empty());
   EXPECT_EQ(trajectory, test::content_of(second.out() / "trajectory.txt"));
+}
+
+/// What deploy/quickstart does about its input.
+ProgramResult cached_scene(const std::filesystem::path& cache, const std::string& scene) {
+  return run_program("/usr/bin/env",
+                     {"XDG_CACHE_HOME=" + cache.string(), TSG_SOURCE_DIR "/deploy/cached-scene",
+                      TSG_BIN_DIR "/tsgctl", scene, "--frames", "3"},
+                     kRunTimeout);
+}
+
+std::filesystem::path last_line(const std::string& text) {
+  const std::size_t end = text.find_last_not_of('\n') + 1;
+  return text.substr(0, end).substr(text.rfind('\n', end - 1) + 1);
+}
+
+TEST(CachedScene, IsRenderedOnceAndAnewWhenTheSceneChanges) {
+  const TempFolder temp;
+  const std::string text =
+      "rooms: [{min_m: [0, 0], max_m: [4, 3]}]\nsensor: {width: 64, height: 48}\n"
+      "camera: {waypoints: [{at_s: 0, position_m: [1, 1, 1.4], look_at_m: [3, 1.5, 1.2]}]}\n";
+  const std::string scene = temp.write("room.yaml", text).string();
+  const ProgramResult first = cached_scene(temp / "cache", scene);
+  ASSERT_EQ(first.end.exit_code, 0) << first.output;
+  const std::filesystem::path folder = last_line(first.output);
+  ASSERT_TRUE(std::filesystem::exists(folder / "rgb.txt")) << first.output;
+
+  const ProgramResult second = cached_scene(temp / "cache", scene);
+  EXPECT_EQ(second.output, folder.string() + "\n") << "nothing is rendered again";
+
+  temp.write("room.yaml", text + "seed: 2\n");
+  const ProgramResult third = cached_scene(temp / "cache", scene);
+  EXPECT_NE(last_line(third.output), folder);
+  EXPECT_FALSE(std::filesystem::exists(folder)) << "the old one takes room";
+}
+
+TEST(CachedScene, LeavesNothingWhereRenderingFails) {
+  const TempFolder temp;
+  const std::string scene = temp.write("room.yaml", "rooms: []\n").string();
+  const ProgramResult result = cached_scene(temp / "cache", scene);
+  EXPECT_EQ(result.end.exit_code, static_cast<int>(ExitCode::kConfig));
+  EXPECT_THAT(result.output, HasSubstr("room.yaml:1: rooms: must have at least one"));
+  EXPECT_TRUE(std::filesystem::is_empty(temp / "cache/tsg-slam"));
 }
 
 TEST(RunWalkingXyz, LockstepWithTrueMasksIsAccurate) {

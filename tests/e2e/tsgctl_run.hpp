@@ -3,10 +3,10 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "services/tsgctl/simulate/sequence_writer.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -40,13 +40,22 @@ class TsgctlRun {
   std::vector<std::string> arguments_;
 };
 
-/// A short sequence of the simulated room, written once for all tests of a program.
+/// The beginning of a shipped scene, in a folder that is not there yet.
+inline void simulate(const std::filesystem::path& folder,
+                     const std::string& scene,
+                     const std::vector<std::string>& options) {
+  std::vector<std::string> arguments{"simulate", scene, "--out", folder.string()};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const ProgramResult result = RunningProgram(TSG_BIN_DIR "/tsgctl", arguments).wait(kRunTimeout);
+  if (result.end.exit_code != 0) throw std::runtime_error(result.output);
+}
+
+/// A short sequence of a simulated office, made once for all tests of a program.
 inline const std::filesystem::path& simulated_room() {
   static const test::TempFolder folder;
   static const std::filesystem::path path = [] {
-    const std::filesystem::path room = folder / "room";
-    write_simulated_sequence(room, {.frames = 40, .width = 640, .height = 480});
-    return room;
+    simulate(folder / "room", "demo", {"--frames", "40"});
+    return folder / "room";
   }();
   return path;
 }

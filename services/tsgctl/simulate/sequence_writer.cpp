@@ -1,96 +1,138 @@
 #include "services/tsgctl/simulate/sequence_writer.hpp"
 
-#include <cstdint>
+#include <algorithm>
+#include <iomanip>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <string>
-#include <vector>
+#include <sstream>
+#include <utility>
 
 #include "common/core/atomic_file.hpp"
-#include "common/core/error.hpp"
 #include "common/dataset/stamp.hpp"
 #include "common/dataset/trajectory.hpp"
-#include "services/tsgctl/simulate/room.hpp"
 
 namespace tsg {
 namespace {
 
 namespace fs = std::filesystem;
+using simulation::SimulatedFrame;
+using simulation::SimulatedInstance;
 
-constexpr std::int64_t kStartNs = 1'700'000'000'000'000'000;
-constexpr std::int64_t kPeriodNs = 33'333'000;  // whole microseconds, as the lists have them
-
-/// A camera with the field of view of a Kinect at any size.
-CameraModel camera_of(const SimulationOptions& options) {
-  CameraModel camera;
-  camera.width = options.width;
-  camera.height = options.height;
-  camera.fx = 0.82 * options.width;
-  camera.fy = camera.fx;
-  camera.cx = 0.5 * (options.width - 1);
-  camera.cy = 0.5 * (options.height - 1);
-  return camera;
-}
-
-void write_text(const fs::path& path, const std::string& text) {
-  throw_on_error(write_file_atomically(path, text));
-}
-
-void write_image(const fs::path& path, const cv::Mat& image) {
+Expected<void> write_image(const fs::path& path, const cv::Mat& image) {
   std::vector<unsigned char> png;
-  // Fast compression: the files are read more often than kept.
+  // Fast compression: noise does not get much smaller by trying harder.
   cv::imencode(".png", image, png, {cv::IMWRITE_PNG_COMPRESSION, 1});
-  write_text(path, std::string(png.begin(), png.end()));
+  return write_file_atomically(path, std::string(png.begin(), png.end()));
 }
 
-std::string camera_yaml(const CameraModel& camera) {
-  return "fx: " + std::to_string(camera.fx) + "\nfy: " + std::to_string(camera.fy) +
-         "\ncx: " + std::to_string(camera.cx) + "\ncy: " + std::to_string(camera.cy) +
-         "\nwidth: " + std::to_string(camera.width) + "\nheight: " + std::to_string(camera.height) +
-         "\nfps: 30.0\ndepth_scale: 5000.0\n";
+/// Masks have 8 bits, as other tools expect, unless the scene has more instances than that holds.
+bool fits_8_bits(const std::vector<SimulatedInstance>& instances) {
+  return std::ranges::all_of(instances, [](const SimulatedInstance& instance) {
+    return instance.id <= std::numeric_limits<std::uint8_t>::max();
+  });
 }
 
-std::string instances_json(const Room& room, const std::vector<std::string>& stamps) {
-  nlohmann::json instances = nlohmann::json::object();
-  for (const auto& [id, class_name] : room.classes()) {
-    nlohmann::json& instance = instances[std::to_string(id)];
-    instance = {{"cls", class_name}, {"name", class_name}, {"dynamic", Room::moves(id)}};
-    if (!Room::moves(id)) continue;
-    for (const std::string& stamp : stamps) instance["moving"][stamp] = true;
-  }
-  return nlohmann::json{{"instances", instances}}.dump(1) + "\n";
+cv::Mat to_mask(const cv::Mat& ids, const std::vector<SimulatedInstance>& instances) {
+  cv::Mat mask = ids;
+  if (fits_8_bits(instances)) ids.convertTo(mask, CV_8U);
+  return mask;
+}
+
+std::set<int> visible_in(const cv::Mat& ids) {
+  std::set<int> visible;
+  int last = 0;  // neighbours mostly have the same
+  std::for_each(ids.begin<std::uint16_t>(), ids.end<std::uint16_t>(), [&](std::uint16_t id) {
+    if (id != last && id != 0) visible.insert(id);
+    last = id;
+  });
+  return visible;
+}
+
+Expected<void> check_empty(const fs::path& folder) {
+  std::error_code absent;
+  if (!fs::exists(folder, absent)) return {};
+  if (fs::is_directory(folder, absent) && fs::is_empty(folder, absent)) return {};
+  return make_error(ExitCode::kCannotWrite,
+                    folder.string() +
+                        " is there already and not an empty folder; remove it, or "
+                        "give another");
 }
 
 }  // namespace
 
-void write_simulated_sequence(const fs::path& folder, const SimulationOptions& options) {
-  for (const char* name : {"rgb", "depth", "mask"}) throw_on_error(make_folder(folder / name));
-  const Room room;
-  const CameraModel camera = camera_of(options);
-  std::string colour_list = "# colour images of a simulated room\n";
-  std::string depth_list = "# depth images of a simulated room, 5000 = 1 m\n";
-  std::vector<std::string> stamps;
-  Trajectory truth;
-  for (int frame = 0; frame < options.frames; ++frame) {
-    const std::int64_t since_start_ns = frame * kPeriodNs;
-    const double time_s = static_cast<double>(since_start_ns) * 1e-9;
-    const SE3 T_world_camera = Room::T_world_camera(time_s);
-    const RoomView view = room.render(camera, T_world_camera, time_s);
-    const std::string stamp = format_stamp(kStartNs + since_start_ns, StampDecimals::kMicroseconds);
-    const std::string name = stamp + ".png";
-    write_image(folder / "rgb" / name, view.colour);
-    write_image(folder / "depth" / name, view.depth);
-    write_image(folder / "mask" / name, view.ids);
-    colour_list += stamp + " rgb/" + name + "\n";
-    depth_list += stamp + " depth/" + name + "\n";
-    stamps.push_back(stamp);
-    truth.push_back({kStartNs + since_start_ns, T_world_camera});
+Expected<SequenceWriter> SequenceWriter::open(const fs::path& folder,
+                                              const simulation::SensorDescription& sensor,
+                                              std::vector<SimulatedInstance> instances) {
+  if (auto empty = check_empty(folder); !empty) return tl::unexpected(empty.error());
+  for (const char* kind : {"rgb", "depth", "mask"}) {
+    if (auto made = make_folder(folder / kind); !made) return tl::unexpected(made.error());
   }
-  write_text(folder / "rgb.txt", colour_list);
-  write_text(folder / "depth.txt", depth_list);
-  write_text(folder / "camera.yaml", camera_yaml(camera));
-  write_text(folder / "instances.json", instances_json(room, stamps));
-  throw_on_error(write_trajectory(folder / "groundtruth.txt", truth));
+  return SequenceWriter(folder, sensor, std::move(instances));
+}
+
+SequenceWriter::SequenceWriter(fs::path folder,
+                               const simulation::SensorDescription& sensor,
+                               std::vector<SimulatedInstance> instances)
+    : folder_(std::move(folder)), sensor_(sensor), instances_(std::move(instances)) {}
+
+Expected<void> SequenceWriter::add(const SimulatedFrame& frame) {
+  const std::int64_t stamp_ns = kSequenceStartNs + frame.since_start_ns;
+  const std::string stamp = format_stamp(stamp_ns, StampDecimals::kMicroseconds);
+  const std::string name = stamp + ".png";
+  stamps_.push_back(stamp);
+  truth_.push_back({stamp_ns, frame.T_world_camera});
+  moving_.emplace_back(frame.moving.begin(), frame.moving.end());
+  for (const int id : visible_in(frame.ids)) ++frames_visible_[id];
+  return write_image(folder_ / "rgb" / name, frame.colour)
+      .and_then([&] { return write_image(folder_ / "depth" / name, frame.depth); })
+      .and_then(
+          [&] { return write_image(folder_ / "mask" / name, to_mask(frame.ids, instances_)); });
+}
+
+std::string SequenceWriter::list_of(const std::string& kind) const {
+  std::string list = "# stamp, file: a simulated sequence\n";
+  for (const std::string& stamp : stamps_) list += stamp + " " + kind + "/" + stamp + ".png\n";
+  return list;
+}
+
+std::string SequenceWriter::camera_yaml() const {
+  const CameraModel& camera = sensor_.camera;
+  std::ostringstream yaml;
+  yaml << std::setprecision(std::numeric_limits<double>::max_digits10) << "fx: " << camera.fx
+       << "\nfy: " << camera.fy << "\ncx: " << camera.cx << "\ncy: " << camera.cy
+       << "\nwidth: " << camera.width << "\nheight: " << camera.height
+       << "\nfps: " << sensor_.rate_hz << "\ndepth_scale: " << simulation::kDepthUnitsPerMetre
+       << "\n";
+  return yaml.str();
+}
+
+std::string SequenceWriter::instances_json() const {
+  nlohmann::json instances = nlohmann::json::object();
+  for (const SimulatedInstance& known : instances_) {
+    const auto visible = frames_visible_.find(known.id);
+    nlohmann::json& instance = instances[std::to_string(known.id)];
+    instance = {{"cls", known.class_name},
+                {"name", known.name},
+                {"dynamic", known.is_dynamic},
+                {"frames_visible", visible == frames_visible_.end() ? 0 : visible->second}};
+    if (!known.is_dynamic) continue;
+    for (std::size_t i = 0; i < stamps_.size(); ++i) {
+      instance["moving"][stamps_[i]] = moving_[i].contains(known.id);
+    }
+  }
+  return nlohmann::json{{"instances", instances}}.dump(1) + "\n";
+}
+
+Expected<void> SequenceWriter::finish() const {
+  const auto write = [&](const char* name, const std::string& text) {
+    return write_file_atomically(folder_ / name, text);
+  };
+  return write("camera.yaml", camera_yaml())
+      .and_then([&] { return write("instances.json", instances_json()); })
+      .and_then([&] { return write_trajectory(folder_ / "groundtruth.txt", truth_); })
+      .and_then([&] { return write("depth.txt", list_of("depth")); })
+      .and_then([&] { return write("rgb.txt", list_of("rgb")); });
 }
 
 }  // namespace tsg
