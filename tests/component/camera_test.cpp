@@ -157,7 +157,7 @@ camera: {waypoints: [{at_s: 0, position_m: [0.5, 1.5, 1.4], look_at_m: [3, 1.5, 
   std::int64_t first_stamp_ns = 0;
   std::uint64_t received = 0;
   while (const auto sample = take(received == 0 ? 60s : 1s)) {
-    const auto frame = view_as_frame(*sample);
+    const auto frame = view_as_frame(**sample);
     ASSERT_TRUE(frame) << frame.error().message;
     EXPECT_EQ(frame->camera.width, 160);
     if (received++ == 0) first_stamp_ns = frame->stamp_ns;

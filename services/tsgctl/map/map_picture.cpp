@@ -168,7 +168,7 @@ cv::Mat picture_of_map(const ColorOcTree& tree) {
   if (mesh.triangles.empty()) return {};
   const SE3 T_map_camera = render::look_at(eye_m, extent.centre_m());
   render::Stage stage({{mesh, 1}}, {}, lamps_for(extent, eye_m));
-  const render::Renderer renderer(framing_camera(mesh, T_map_camera));
+  render::Renderer renderer(framing_camera(mesh, T_map_camera));
   const render::Picture picture = renderer.render(stage, render::Shot::still(T_map_camera));
   cv::Mat radiance = picture.radiance.clone();
   radiance.setTo(cv::Scalar::all(kBackground), picture.tags == 0);
