@@ -37,18 +37,23 @@ class Actor {
   [[nodiscard]] Timeline take_timeline();
 
  private:
+  /// How to follow a path; see Route::Manner.
+  struct Walk {
+    double speed_mps;
+    bool backwards;
+    double trailing_m;
+  };
+
   void sit(const ActionDescription& action);
   void stand_up();
   void push(const ActionDescription& action);
-  void push_along(const std::vector<Eigen::Vector2d>& corners,
-                  const ActionDescription& action,
-                  double gap_m);
   void take(const std::string& name);
   void put_down();
   void finish_round();
 
-  void walk_to(const FloorPose& place, double speed_mps, const PlannedProp* obstacle);
-  void walk_along(std::vector<Eigen::Vector2d> corners, double speed_mps);
+  /// Walks to a place, around an obstacle where there is one, and turns there.
+  void go_to(const FloorPose& place, const PlannedProp* obstacle);
+  void follow(const std::vector<Eigen::Vector2d>& corners, const Walk& walk);
   void turn_to(double yaw_rad, double gap_m);
   void stay(double duration_s, Gesture gesture, double fade_s);
   void move(const Route& route, double speed_mps, bool rolls);
@@ -56,8 +61,7 @@ class Actor {
   void start_seated();
   [[nodiscard]] Sitting sitting_on(const PlannedProp& prop) const;
   [[nodiscard]] FloorPose place_before_seat(const PlannedProp& prop) const;
-  [[nodiscard]] double facing_to_push(const PlannedProp& prop,
-                                      const ActionDescription& action) const;
+  [[nodiscard]] Held grip_to_push(std::size_t index, double gap_m) const;
 
   Role role_;
   PropStage& stage_;

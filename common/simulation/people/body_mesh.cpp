@@ -23,7 +23,7 @@ std::vector<render::Material> make_materials(const Look& look) {
           textured(paint_face(look), 0.04F),
           textured(paint_hair(look), 0.03F),
           textured(paint_top(look), 0.0F),
-          textured(paint_cloth(look.top_cloth, {0.34, kSleeveTexture_m}), 0.0F),
+          textured(paint_cloth(look.top_cloth, {0.34, kSleeveTextureM}), 0.0F),
           bottom,
           look.bottom == Bottom::kSkirt ? textured(paint_tights(look), 0.02F) : bottom,
           textured(paint_shoe(look), 0.12F)};

@@ -15,7 +15,7 @@
 namespace tsg::simulation {
 namespace {
 
-constexpr double kTopAround_m = 0.98;
+constexpr double kTopAroundM = 0.98;
 
 cv::Scalar shade(const cv::Vec3b& colour, double factor) {
   return {std::min(255.0, factor * colour[0]), std::min(255.0, factor * colour[1]),
@@ -41,8 +41,8 @@ cv::Mat mottled(const cv::Vec3b& colour, std::uint64_t seed, int pixels, double 
 /// Pixel of a top's texture: metres right of the middle of the chest as seen, metres below the
 /// neck.
 cv::Point on_top(const cv::Mat& image, double right_m, double down_m) {
-  return {static_cast<int>(std::lround((0.5 + right_m / kTopAround_m) * image.cols)),
-          static_cast<int>(std::lround(down_m / static_cast<double>(kTopTexture_m) * image.rows))};
+  return {static_cast<int>(std::lround((0.5 + right_m / kTopAroundM) * image.cols)),
+          static_cast<int>(std::lround(down_m / static_cast<double>(kTopTextureM) * image.rows))};
 }
 
 void draw_buttons(const Look& look, cv::Mat& image) {
@@ -105,7 +105,7 @@ void draw_hem(const Look& look, cv::Mat& image) {
 }  // namespace
 
 cv::Mat paint_top(const Look& look) {
-  cv::Mat image = paint_cloth(look.top_cloth, {kTopAround_m, static_cast<double>(kTopTexture_m)});
+  cv::Mat image = paint_cloth(look.top_cloth, {kTopAroundM, static_cast<double>(kTopTextureM)});
   switch (look.top) {
     case Top::kShirt:
       draw_buttons(look, image);
@@ -123,9 +123,8 @@ cv::Mat paint_top(const Look& look) {
 }
 
 cv::Mat paint_bottom(const Look& look) {
-  constexpr double kAround_m = 0.52;
-  cv::Mat image =
-      paint_cloth(look.bottom_cloth, {kAround_m, static_cast<double>(kBottomTexture_m)});
+  constexpr double kAroundM = 0.52;
+  cv::Mat image = paint_cloth(look.bottom_cloth, {kAroundM, static_cast<double>(kBottomTextureM)});
   if (look.bottom == Bottom::kSkirt) return image;
   const cv::Scalar seam = shade(look.bottom_cloth.ground, 0.55);
   const cv::Scalar thread =

@@ -7,9 +7,9 @@
 namespace tsg::simulation {
 
 /// Lengths of the body that the height of a texture covers.
-inline constexpr float kTopTexture_m = 0.66F;
-inline constexpr float kSleeveTexture_m = 0.66F;
-inline constexpr float kBottomTexture_m = 0.95F;
+inline constexpr float kTopTextureM = 0.66F;
+inline constexpr float kSleeveTextureM = 0.66F;
+inline constexpr float kBottomTextureM = 0.95F;
 
 /// All images: CV_8UC3, BGR, sRGB-coded, 512 pixels or less on a side. u 0.5 is in front.
 

@@ -16,7 +16,7 @@ namespace tsg::simulation {
 namespace {
 
 /// How long somebody waits before asking again for what another has.
-constexpr double kWaitAtLeast_s = 0.2;
+constexpr double kWaitAtLeastS = 0.2;
 
 std::uint64_t look_of(const PersonDescription& person, std::uint64_t seed) {
   return person.look != 0 ? person.look : seed_of(seed, person.name);
@@ -31,7 +31,7 @@ bool wait_for(std::size_t prop_index, std::vector<Actor>& actors, Actor& actor, 
   }
   const Actor& user = actors.at(prop.used_by);
   if (user.is_done()) return false;
-  actor.wait_until(std::max(user.now_s(), actor.now_s()) + kWaitAtLeast_s);
+  actor.wait_until(std::max(user.now_s(), actor.now_s()) + kWaitAtLeastS);
   return true;
 }
 

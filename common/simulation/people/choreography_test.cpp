@@ -13,7 +13,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr double kFrame_s = 1.0 / 30.0;
+constexpr double kFrameS = 1.0 / 30.0;
 
 PersonDescription person(const std::string& name, const std::vector<ActionDescription>& actions) {
   PersonDescription result;
@@ -166,12 +166,12 @@ TEST(Choreography, NothingOfABodyMovesFasterThanEightMetresASecond) {
                                sit("chair", 2.0), push("chair", {{4.0, 1.0}}), carry})});
   Body before = body_at(choreography, 0.0);
   for (int frame = 1; frame < 60 * 30; ++frame) {
-    const Body now = body_at(choreography, frame * kFrame_s);
+    const Body now = body_at(choreography, frame * kFrameS);
     float fastest = 0.0F;
     for (std::size_t i = 0; i < now.points.size(); ++i) {
       fastest = std::max(fastest, (now.points[i] - before.points[i]).norm());
     }
-    ASSERT_LT(fastest / kFrame_s, 8.0) << "at " << frame * kFrame_s << " s";
+    ASSERT_LT(fastest / kFrameS, 8.0) << "at " << frame * kFrameS << " s";
     before = now;
   }
 }
@@ -207,9 +207,9 @@ TEST(Choreography, PushedChairGoesFromWhereItStandsToTheEndWithoutJumps) {
   EXPECT_EQ(start.translation(), Eigen::Vector3d(3.0, 0.5, 0.0));
   SE3 before = start;
   for (int frame = 1; frame < 30 * 30; ++frame) {
-    const SE3 now = choreography.T_world_object("chair", frame * kFrame_s);
-    ASSERT_LT((now.translation() - before.translation()).norm(), 0.02) << frame * kFrame_s;
-    ASSERT_LT((before.inverse() * now).angle(), 0.1) << frame * kFrame_s;
+    const SE3 now = choreography.T_world_object("chair", frame * kFrameS);
+    ASSERT_LT((now.translation() - before.translation()).norm(), 0.02) << frame * kFrameS;
+    ASSERT_LT((before.inverse() * now).angle(), 0.1) << frame * kFrameS;
     before = now;
   }
   EXPECT_LT((before.translation() - Eigen::Vector3d(5.0, 3.0, 0.0)).norm(), 0.01);
@@ -233,9 +233,9 @@ TEST(Choreography, CarriedBoxEndsOnTheTable) {
   double highest = 0.0;
   SE3 before = choreography.T_world_object("box", 0.0);
   for (int frame = 1; frame < 30 * 30; ++frame) {
-    const SE3 now = choreography.T_world_object("box", frame * kFrame_s);
+    const SE3 now = choreography.T_world_object("box", frame * kFrameS);
     highest = std::max(highest, now.translation().z());
-    ASSERT_LT((now.translation() - before.translation()).norm(), 0.06) << frame * kFrame_s;
+    ASSERT_LT((now.translation() - before.translation()).norm(), 0.06) << frame * kFrameS;
     before = now;
   }
   EXPECT_NEAR(highest, 0.98, 0.02);

@@ -69,15 +69,15 @@ Colour dotted(const Dyes& dyes, double x_m, double y_m) {
 
 /// Leaves and blossoms: each cell of a grid has one, turned and sized by chance.
 Colour printed(const Dyes& dyes, std::uint64_t seed, double x_m, double y_m) {
-  constexpr double kCell_m = 0.055;
-  const auto column = static_cast<std::int64_t>(std::floor(x_m / kCell_m));
-  const auto row = static_cast<std::int64_t>(std::floor(y_m / kCell_m));
+  constexpr double kCellM = 0.055;
+  const auto column = static_cast<std::int64_t>(std::floor(x_m / kCellM));
+  const auto row = static_cast<std::int64_t>(std::floor(y_m / kCellM));
   for (std::int64_t i = 0; i < 9; ++i) {
     const std::int64_t cx = column + i % 3 - 1;
     const std::int64_t cy = row + i / 3 - 1;
     Random random(mixed(seed ^ mixed(static_cast<std::uint64_t>(cx * 7919 + cy))));
-    const double dx = x_m - kCell_m * (static_cast<double>(cx) + random.uniform(0.2, 0.8));
-    const double dy = y_m - kCell_m * (static_cast<double>(cy) + random.uniform(0.2, 0.8));
+    const double dx = x_m - kCellM * (static_cast<double>(cx) + random.uniform(0.2, 0.8));
+    const double dy = y_m - kCellM * (static_cast<double>(cy) + random.uniform(0.2, 0.8));
     const double turn = random.uniform(0.0, kPi);
     const double size = random.uniform(0.015, 0.028);
     const bool is_blossom = random.chance(0.5);

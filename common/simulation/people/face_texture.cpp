@@ -50,7 +50,7 @@ cv::Scalar tinted(const cv::Vec3b& colour, const cv::Scalar& factors) {
 void paint_soft_parts(const Look& look, const FacePainter& face) {
   for (const double side : {-1.0, 1.0}) {
     face.ellipse({side * 0.042, 1.598}, {0.020, 0.016}, tinted(look.skin, {0.90, 0.90, 1.03}));
-    face.ellipse({side * kEyeAside_m, kEyeHeight_m}, {0.021, 0.013},
+    face.ellipse({side * kEyeAsideM, kEyeHeightM}, {0.021, 0.013},
                  tinted(look.skin, {0.80, 0.82, 0.86}));
     face.ellipse({side * 0.008, 1.592}, {0.006, 0.004}, tinted(look.skin, {0.55, 0.55, 0.62}));
   }
@@ -70,12 +70,12 @@ void paint_soft_parts(const Look& look, const FacePainter& face) {
 }
 
 void paint_eye(const Look& look, double side, const FacePainter& face) {
-  const double y = side * kEyeAside_m;
-  face.ellipse({y, kEyeHeight_m}, {0.0145, 0.0068}, {30, 30, 38});
-  face.ellipse({y, kEyeHeight_m - 0.0006}, {0.0130, 0.0055}, {226, 230, 232});
-  face.ellipse({y, kEyeHeight_m}, {0.0062, 0.0058}, tinted(look.eyes, {1.0, 1.0, 1.0}));
-  face.ellipse({y, kEyeHeight_m}, {0.0030, 0.0030}, {12, 12, 12});
-  face.ellipse({y + 0.002, kEyeHeight_m + 0.002}, {0.0011, 0.0011}, {250, 250, 250});
+  const double y = side * kEyeAsideM;
+  face.ellipse({y, kEyeHeightM}, {0.0145, 0.0068}, {30, 30, 38});
+  face.ellipse({y, kEyeHeightM - 0.0006}, {0.0130, 0.0055}, {226, 230, 232});
+  face.ellipse({y, kEyeHeightM}, {0.0062, 0.0058}, tinted(look.eyes, {1.0, 1.0, 1.0}));
+  face.ellipse({y, kEyeHeightM}, {0.0030, 0.0030}, {12, 12, 12});
+  face.ellipse({y + 0.002, kEyeHeightM + 0.002}, {0.0011, 0.0011}, {250, 250, 250});
   const cv::Scalar brow = tinted(look.hair_colour, {0.85, 0.85, 0.85});
   face.line({y - side * 0.014, 1.6545}, {y + side * 0.004, 1.6590}, brow, 8);
   face.line({y + side * 0.004, 1.6590}, {y + side * 0.018, 1.6545}, brow, 6);
@@ -84,16 +84,15 @@ void paint_eye(const Look& look, double side, const FacePainter& face) {
 void paint_mouth(const Look& look, const FacePainter& face) {
   const double red = look.is_feminine ? 1.02 : 0.95;
   const cv::Scalar lips = tinted(look.skin, {0.60, 0.58, red});
-  face.ellipse({0.0, kMouthHeight_m + 0.003}, {0.022, 0.0042}, lips);
-  face.ellipse({0.0, kMouthHeight_m - 0.004}, {0.019, 0.0058}, lips);
-  face.line({-0.023, kMouthHeight_m}, {0.023, kMouthHeight_m}, tinted(look.skin, {0.3, 0.3, 0.4}),
-            2);
+  face.ellipse({0.0, kMouthHeightM + 0.003}, {0.022, 0.0042}, lips);
+  face.ellipse({0.0, kMouthHeightM - 0.004}, {0.019, 0.0058}, lips);
+  face.line({-0.023, kMouthHeightM}, {0.023, kMouthHeightM}, tinted(look.skin, {0.3, 0.3, 0.4}), 2);
 }
 
 void paint_glasses(const FacePainter& face) {
   const cv::Scalar frame(28, 26, 30);
   for (const double side : {-1.0, 1.0}) {
-    const double y = side * kEyeAside_m;
+    const double y = side * kEyeAsideM;
     const cv::Point2d corners[] = {
         {y - 0.021, 1.651}, {y + 0.021, 1.651}, {y + 0.021, 1.621}, {y - 0.021, 1.621}};
     for (int i = 0; i < 4; ++i) face.line(corners[i], corners[(i + 1) % 4], frame, 5);

@@ -13,11 +13,11 @@ namespace {
 // half a step earlier; both feet are on the floor for a fifth of each step (Winter 1991).
 constexpr double kLandsBefore = 0.5;
 constexpr double kDoubleSupport = 0.2;
-constexpr double kBriskStep_m = 0.62;  // of an adult of 1.75 m at kBriskSpeed
-constexpr double kBriskSpeed = 1.1;    // m/s
-constexpr double kLift_m = 0.055;      // of the sole in mid-swing
-constexpr double kHeelStrike_rad = 0.30;
-constexpr double kPushOff_rad = 0.65;
+constexpr double kBriskStepM = 0.62;  // of an adult of 1.75 m at kBriskSpeed
+constexpr double kBriskSpeed = 1.1;   // m/s
+constexpr double kLiftM = 0.055;      // of the sole in mid-swing
+constexpr double kHeelStrikeRad = 0.30;
+constexpr double kPushOffRad = 0.65;
 
 SE3 to_transform(const FloorPose& pose) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ())),
@@ -44,11 +44,11 @@ struct Gait::Swing {
 
 Gait::Gait(const Skeleton& skeleton, const Route& route, double speed_mps, bool rolls)
     : steps_(1), step_m_(0.0), first_(Side::kRight), rolls_(rolls), stride_(0.0) {
-  const double natural_m = std::clamp(kBriskStep_m * std::sqrt(speed_mps / kBriskSpeed), 0.3, 0.8) *
+  const double natural_m = std::clamp(kBriskStepM * std::sqrt(speed_mps / kBriskSpeed), 0.3, 0.8) *
                            (rolls ? 1.0 : 0.75) * skeleton.scale;
   steps_ = std::max(1, static_cast<int>(std::lround(route.length_m() / natural_m)));
   step_m_ = route.length_m() / steps_;
-  stride_ = std::min(1.2, step_m_ / kBriskStep_m);
+  stride_ = std::min(1.2, step_m_ / kBriskStepM);
   // The foot on the inner side goes first, so that legs do not cross.
   const FloorPose start = route.person_at(0.0);
   const FloorPose next = route.person_at(step_m_);
@@ -93,18 +93,18 @@ FootPosture Gait::foot_at(const Skeleton& skeleton,
   const Eigen::Vector2d sole = mixed_values(from.position_m, to.position_m, share);
   const double yaw = from.yaw_rad + share * wrapped(to.yaw_rad - from.yaw_rad);
   const double arc = std::sin(kPi * swing.progress);
-  const double lift = kLift_m * skeleton.scale * (0.4 + 0.6 * stride_) * arc * arc;
+  const double lift = kLiftM * skeleton.scale * (0.4 + 0.6 * stride_) * arc * arc;
   double pitch = 0.0;
   if (rolls_) {
-    const double push_off = swing.rolls_off ? -kPushOff_rad * stride_ : 0.0;
-    const double strike = swing.is_last ? 0.0 : kHeelStrike_rad * stride_;
+    const double push_off = swing.rolls_off ? -kPushOffRad * stride_ : 0.0;
+    const double strike = swing.is_last ? 0.0 : kHeelStrikeRad * stride_;
     // The heel rises while the other foot takes the weight, before this one leaves the floor.
     const double until_start = 1.0 + kDoubleSupport - kLandsBefore;
     const double behind = phase - swing.to_m / step_m_;
     if (swing.progress >= 1.0) {
       const bool leaves_again = !swing.is_last && swing.to_m < landing_m(steps_);
       const double rises = leaves_again ? eased((behind - 0.15) / (until_start - 0.15)) : 0.0;
-      pitch = strike * (1.0 - eased(swing.since_landing / 0.25)) - kPushOff_rad * stride_ * rises;
+      pitch = strike * (1.0 - eased(swing.since_landing / 0.25)) - kPushOffRad * stride_ * rises;
     } else if (swing.progress <= 0.0) {
       const double rises = eased((phase - swing.from_m / step_m_ - 0.15) / (until_start - 0.15));
       pitch = push_off * rises;

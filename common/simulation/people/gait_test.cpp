@@ -11,7 +11,7 @@
 namespace tsg::simulation {
 namespace {
 
-constexpr double kStep_s = 1.0 / 120.0;
+constexpr double kStepS = 1.0 / 120.0;
 
 struct WalkCase {
   double speed_mps;
@@ -47,7 +47,7 @@ TEST_P(GaitOfAWalk, FootOnTheFloorDoesNotSlide) {
     for (const double ahead : {heel, ball}) {
       double slid = 0.0;
       Eigen::Vector3d before = contact(0.0, side, ahead);
-      for (double time = kStep_s; time < profile_.duration_s(); time += kStep_s) {
+      for (double time = kStepS; time < profile_.duration_s(); time += kStepS) {
         const Eigen::Vector3d now = contact(time, side, ahead);
         const bool is_down = now.z() < 0.002 && before.z() < 0.002;
         slid = is_down ? slid + (now - before).head<2>().norm() : 0.0;
@@ -59,7 +59,7 @@ TEST_P(GaitOfAWalk, FootOnTheFloorDoesNotSlide) {
 }
 
 TEST_P(GaitOfAWalk, OneFootIsAlwaysOnTheFloorAndNoneBelow) {
-  for (double time = 0.0; time < profile_.duration_s(); time += kStep_s) {
+  for (double time = 0.0; time < profile_.duration_s(); time += kStepS) {
     double lowest = 1.0;
     for (const Side side : kBothSides) {
       for (const double ahead : {-0.045, 0.125}) {
@@ -71,7 +71,7 @@ TEST_P(GaitOfAWalk, OneFootIsAlwaysOnTheFloorAndNoneBelow) {
 }
 
 TEST_P(GaitOfAWalk, PelvisStaysAtAPlausibleHeight) {
-  for (double time = 0.0; time < profile_.duration_s(); time += kStep_s) {
+  for (double time = 0.0; time < profile_.duration_s(); time += kStepS) {
     const double height =
         solve(skeleton_, posture_at(time))[index_of(Bone::kPelvis)].translation().z();
     ASSERT_GT(height, 0.80) << "at " << time << " s";

@@ -42,7 +42,7 @@ void shape_face(float scale, std::size_t first, SkinnedMesh& mesh) {
   constexpr std::array<Feature, 9> kFeatures{{{0.0, 1.600, 0.011, 0.011, 0.017},
                                               {0.0, 1.612, 0.008, 0.020, 0.009},
                                               {0.013, 1.596, 0.006, 0.007, 0.005},
-                                              {kEyeAside_m, kEyeHeight_m, 0.014, 0.010, -0.008},
+                                              {kEyeAsideM, kEyeHeightM, 0.014, 0.010, -0.008},
                                               {0.026, 1.656, 0.020, 0.008, 0.004},
                                               {0.040, 1.605, 0.016, 0.016, 0.003},
                                               {0.0, 1.572, 0.018, 0.006, 0.004},

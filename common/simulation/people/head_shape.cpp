@@ -17,10 +17,10 @@ const std::vector<HeadLevel>& head_levels() {
 }
 
 double face_u(double y_m) {
-  constexpr double kHalfWidth_m = 0.075;
-  return 0.5 + std::asin(y_m / kHalfWidth_m) / (2.0 * std::numbers::pi);
+  constexpr double kHalfWidthM = 0.075;
+  return 0.5 + std::asin(y_m / kHalfWidthM) / (2.0 * std::numbers::pi);
 }
 
-double face_v(double z_m) { return (kFaceTop_m - z_m) / kFaceHeight_m; }
+double face_v(double z_m) { return (kFaceTopM - z_m) / kFaceHeightM; }
 
 }  // namespace tsg::simulation

@@ -22,10 +22,10 @@ struct HeadLevel {
 /// v of a height.
 [[nodiscard]] double face_v(double z_m);
 
-inline constexpr double kFaceTop_m = 1.77;
-inline constexpr double kFaceHeight_m = 0.27;
-inline constexpr double kEyeHeight_m = 1.637;
-inline constexpr double kEyeAside_m = 0.031;
-inline constexpr double kMouthHeight_m = 1.567;
+inline constexpr double kFaceTopM = 1.77;
+inline constexpr double kFaceHeightM = 0.27;
+inline constexpr double kEyeHeightM = 1.637;
+inline constexpr double kEyeAsideM = 0.031;
+inline constexpr double kMouthHeightM = 1.567;
 
 }  // namespace tsg::simulation

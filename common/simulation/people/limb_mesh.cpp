@@ -113,7 +113,7 @@ void add_leg(const Skeleton& skeleton, const Look& look, Side side, SkinnedMesh&
   TubeStyle style;
   style.sides = 18;
   style.material = material_of(BodyMaterial::kLegs);
-  style.texture_height_m = kBottomTexture_m * scale;
+  style.texture_height_m = kBottomTextureM * scale;
   add_tube(mesh, rings, style);
 }
 
@@ -138,7 +138,7 @@ void add_arm(const Skeleton& skeleton, const Look& look, Side side, SkinnedMesh&
     style.sides = 16;
     style.side = left;
     style.material = material_of(material);
-    style.texture_height_m = kSleeveTexture_m * scale;
+    style.texture_height_m = kSleeveTextureM * scale;
     add_tube(mesh, rings, style);
   };
   add(false, BodyMaterial::kSleeve);

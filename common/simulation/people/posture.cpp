@@ -8,9 +8,9 @@
 namespace tsg::simulation {
 namespace {
 
-constexpr double kStraightest = 0.997;     // share of its length that a limb stretches to
-constexpr double kStandingBend_m = 0.012;  // knees of one who stands are not quite straight
-constexpr double kHeelBehindAnkle_m = 0.045;
+constexpr double kStraightest = 0.997;    // share of its length that a limb stretches to
+constexpr double kStandingBendM = 0.012;  // knees of one who stands are not quite straight
+constexpr double kHeelBehindAnkleM = 0.045;
 
 Eigen::Quaterniond rotation_of(const Eigen::Vector3d& rpy) {
   return Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
@@ -140,8 +140,8 @@ FootPosture make_foot(const Skeleton& skeleton,
                       double pitch_rad) {
   const Eigen::Vector3d ankle{0.0, 0.0, skeleton.joint(Side::kLeft, LimbBone::kFoot).z()};
   const Eigen::Vector3d toes = skeleton.joint(Side::kLeft, LimbBone::kToes);
-  const Eigen::Vector3d pivot{pitch_rad > 0.0 ? -kHeelBehindAnkle_m * skeleton.scale : toes.x(),
-                              0.0, 0.0};
+  const Eigen::Vector3d pivot{pitch_rad > 0.0 ? -kHeelBehindAnkleM * skeleton.scale : toes.x(), 0.0,
+                              0.0};
   const Eigen::Vector3d tilted = pivot + rotation_of({0.0, -pitch_rad, 0.0}) * (ankle - pivot);
   return {sole_m + rotation_of({0.0, 0.0, yaw_rad}) * tilted, yaw_rad, pitch_rad};
 }
@@ -149,7 +149,7 @@ FootPosture make_foot(const Skeleton& skeleton,
 Posture standing_posture(const Skeleton& skeleton) {
   Posture posture;
   posture.pelvis_m = skeleton.joint(Bone::kPelvis);
-  posture.pelvis_m.z() -= kStandingBend_m * skeleton.scale;
+  posture.pelvis_m.z() -= kStandingBendM * skeleton.scale;
   for (const Side side : kBothSides) {
     let_arm_hang(skeleton, side, 0.03, 0.18, posture);
     posture.feet.at(index_of(side)) = make_foot(

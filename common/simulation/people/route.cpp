@@ -10,24 +10,51 @@
 namespace tsg::simulation {
 namespace {
 
-constexpr double kBiggestRadius_m = 0.6;
-constexpr double kAcceleration = 1.3;  // m/s^2, mean of speeding up and slowing down
-constexpr double kTurnWithin_m = 0.7;  // of the path: from the first yaw into its direction
-constexpr double kLookAhead_m = 0.25;  // a body turns into a bend before its feet do
-constexpr double kFeetTurn_m = 0.35;   // way of the feet per radian turned in place
+constexpr double kBiggestRadiusM = 0.6;
+constexpr double kAcceleration = 1.3;    // m/s^2, mean of speeding up and slowing down
+constexpr double kSharpCornerRad = 2.1;  // walked to, turned at, walked on from
+constexpr double kTurnWithinM = 0.7;     // of the path: from the first yaw into its direction
+constexpr double kLookAheadM = 0.25;     // a body turns into a bend before its feet do
+constexpr double kFeetTurnM = 0.35;      // way of the feet per radian turned in place
 
 Eigen::Vector2d direction_of(double yaw_rad) { return {std::cos(yaw_rad), std::sin(yaw_rad)}; }
 
-double yaw_of(const Eigen::Vector2d& direction) { return std::atan2(direction.y(), direction.x()); }
+/// Leaves out corners that are nearer than 2 cm to the one before.
+std::vector<Eigen::Vector2d> without_repeats(const std::vector<Eigen::Vector2d>& corners) {
+  std::vector<Eigen::Vector2d> result;
+  for (const Eigen::Vector2d& corner : corners) {
+    if (result.empty() || (corner - result.back()).norm() > 0.02) result.push_back(corner);
+  }
+  return result;
+}
 
 }  // namespace
+
+double heading_between(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) {
+  return std::atan2(to_m.y() - from_m.y(), to_m.x() - from_m.x());
+}
+
+std::vector<std::vector<Eigen::Vector2d>> walkable_parts(
+    const std::vector<Eigen::Vector2d>& corners_m) {
+  const std::vector<Eigen::Vector2d> corners = without_repeats(corners_m);
+  if (corners.size() < 2) return {};
+  std::vector<std::vector<Eigen::Vector2d>> parts(1);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    parts.back().push_back(corners[i]);
+    if (i == 0 || i + 1 == corners.size()) continue;
+    const double turn = wrapped(heading_between(corners[i], corners[i + 1]) -
+                                heading_between(corners[i - 1], corners[i]));
+    if (std::abs(turn) > kSharpCornerRad) parts.push_back({corners[i]});
+  }
+  return parts;
+}
 
 Eigen::Vector2d moved_by(const FloorPose& pose, const Eigen::Vector2d& offset_m) {
   return pose.position_m + Eigen::Rotation2Dd(pose.yaw_rad) * offset_m;
 }
 
 RoundedPath::RoundedPath(const std::vector<Eigen::Vector2d>& corners) : end_m_(corners.front()) {
-  double heading = yaw_of(corners[1] - corners[0]);
+  double heading = heading_between(corners[0], corners[1]);
   double cut_m = 0.0;  // of the present leg by the arc at its beginning
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     const double leg_m = (corners[i + 1] - corners[i]).norm();
@@ -36,10 +63,9 @@ RoundedPath::RoundedPath(const std::vector<Eigen::Vector2d>& corners) : end_m_(c
       break;
     }
     const Eigen::Vector2d next = corners[i + 2] - corners[i + 1];
-    const double turn = wrapped(yaw_of(next) - heading);
+    const double turn = wrapped(heading_between(corners[i + 1], corners[i + 2]) - heading);
     const double tangent = std::tan(0.5 * std::abs(turn));
-    const double next_cut_m =
-        std::min({kBiggestRadius_m * tangent, 0.5 * leg_m, 0.5 * next.norm()});
+    const double next_cut_m = std::min({kBiggestRadiusM * tangent, 0.5 * leg_m, 0.5 * next.norm()});
     add(heading, 0.0, leg_m - cut_m - next_cut_m);
     if (next_cut_m > 1e-6) {
       const double radius = next_cut_m / tangent;
@@ -84,7 +110,7 @@ double RoundedPath::heading_rad(double along_m) const {
   constexpr int kSamples = 8;
   double sum = 0.0;
   for (int i = -kSamples; i <= kSamples; ++i) {
-    sum += direction_rad(along_m + kLookAhead_m * i / kSamples);
+    sum += direction_rad(along_m + kLookAheadM * i / kSamples);
   }
   return sum / (2 * kSamples + 1);
 }
@@ -100,7 +126,7 @@ Route::Route(const FloorPose& from, const FloorPose& to, double trailing_m)
       shift_m_(to.position_m - from.position_m),
       turn_rad_(wrapped(to.yaw_rad - from.yaw_rad)) {
   manner_.trailing_m = trailing_m;
-  length_m_ = shift_m_.norm() + (kFeetTurn_m + trailing_m) * std::abs(turn_rad_);
+  length_m_ = shift_m_.norm() + (kFeetTurnM + trailing_m) * std::abs(turn_rad_);
 }
 
 FloorPose Route::leader_at(double along_m) const {
@@ -109,7 +135,7 @@ FloorPose Route::leader_at(double along_m) const {
     return {from_.position_m + share * shift_m_, from_.yaw_rad + share * turn_rad_};
   }
   const RoundedPath& path = path_.front();
-  const double way_to_turn = std::min(kTurnWithin_m + manner_.trailing_m, length_m_);
+  const double way_to_turn = std::min(kTurnWithinM + manner_.trailing_m, length_m_);
   const double still_to_turn = turn_rad_ * (1.0 - eased(along_m / way_to_turn));
   return {path.position_m(along_m),
           path.heading_rad(along_m) + (manner_.backwards ? kPi : 0.0) + still_to_turn};

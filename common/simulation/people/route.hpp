@@ -85,6 +85,14 @@ class SpeedProfile {
   double duration_s_;
 };
 
+/// Direction from one place to another.
+[[nodiscard]] double heading_between(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m);
+
+/// Cuts a polyline where it turns too sharply to be rounded; one walks to the end of a part, turns
+/// there and walks on. Parts share their end points, have two corners or more, and none twice.
+[[nodiscard]] std::vector<std::vector<Eigen::Vector2d>> walkable_parts(
+    const std::vector<Eigen::Vector2d>& corners_m);
+
 /// `pose` moved by `offset_m`, which is in its axes.
 [[nodiscard]] Eigen::Vector2d moved_by(const FloorPose& pose, const Eigen::Vector2d& offset_m);
 

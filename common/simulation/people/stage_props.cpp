@@ -11,7 +11,7 @@
 namespace tsg::simulation {
 namespace {
 
-constexpr double kClearance_m = 0.28;  // half a body's width, kept from what one goes around
+constexpr double kClearanceM = 0.28;  // half a body's width, kept from what one goes around
 
 /// Whether the line from `a` to `b` enters the box -half..half (slab method).
 bool crosses_box(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& half) {
@@ -78,7 +78,7 @@ std::vector<Eigen::Vector2d> way_around(const PlannedProp& prop,
   const Eigen::Rotation2Dd R_world_prop(pose.yaw_rad);
   const Eigen::Vector2d from = R_world_prop.inverse() * (from_m - pose.position_m);
   const Eigen::Vector2d to = R_world_prop.inverse() * (to_m - pose.position_m);
-  const Eigen::Vector2d half = prop.prop.half_size_m + Eigen::Vector2d::Constant(kClearance_m);
+  const Eigen::Vector2d half = prop.prop.half_size_m + Eigen::Vector2d::Constant(kClearanceM);
   // Who stands nearer than that already goes straight away.
   const Eigen::Vector2d kept =
       (0.9 * half).cwiseMin(0.95 * from.cwiseAbs().cwiseMax(to.cwiseAbs().cwiseMin(half)));

@@ -9,8 +9,8 @@
 namespace tsg::simulation {
 namespace {
 
-constexpr double kLowestUpright_m = 0.85;  // hands below this: one bends and squats
-constexpr double kEasyReach_m = 0.48;      // from the chest's joint; beyond this one leans forward
+constexpr double kLowestUprightM = 0.85;  // hands below this: one bends and squats
+constexpr double kEasyReachM = 0.48;      // from the chest's joint; beyond this one leans forward
 
 double progress_of(const Segment& segment, double time_s) {
   const double duration = segment.end_s - segment.begin_s;
@@ -33,13 +33,13 @@ void reach_for(const Skeleton& skeleton,
                const Eigen::Vector3d& base_m,
                Posture& posture) {
   const Eigen::Vector3d grip = base_m + Eigen::Vector3d(-held.grip_back_m, 0, held.grip_height_m);
-  const double low = std::clamp(
-      (kLowestUpright_m * skeleton.scale - grip.z()) / (0.75 * skeleton.scale), 0.0, 1.0);
+  const double low =
+      std::clamp((kLowestUprightM * skeleton.scale - grip.z()) / (0.75 * skeleton.scale), 0.0, 1.0);
   posture.pelvis_m += skeleton.scale * low * Eigen::Vector3d(-0.14, 0.0, -0.38);
   posture.pelvis_rpy.y() += 0.45 * low;
   posture.spine_rpy.y() += 0.42 * low;
   const double distance = (grip - chest_of(skeleton, posture).translation()).norm();
-  const double lean = std::clamp(1.6 * (distance / skeleton.scale - kEasyReach_m), 0.0, 0.7);
+  const double lean = std::clamp(1.6 * (distance / skeleton.scale - kEasyReachM), 0.0, 0.7);
   posture.spine_rpy.y() += lean;
   posture.head_rpy.y() += 0.2 * low - 0.3 * lean;
   for (const Side side : kBothSides) {

@@ -62,6 +62,7 @@ struct Segment {
 /// Immutable once filled.
 class Timeline {
  public:
+  // NOLINTNEXTLINE(modernize-pass-by-value): nothing in a skeleton could be moved
   Timeline(const Skeleton& skeleton, std::uint64_t seed) : skeleton_(skeleton), seed_(seed) {}
 
   /// Appends what comes next; returns its number.

@@ -46,7 +46,7 @@ void add_hips(float scale, float girth, SkinnedMesh& mesh) {
   TubeStyle style;
   style.sides = 24;
   style.material = material_of(BodyMaterial::kBottom);
-  style.texture_height_m = kBottomTexture_m * scale;
+  style.texture_height_m = kBottomTextureM * scale;
   add_tube(mesh, refined(to_rings(levels, scale, girth), 2), style);
 }
 
@@ -62,7 +62,7 @@ void add_skirt(float scale, float girth, SkinnedMesh& mesh) {
   TubeStyle style;
   style.sides = 28;
   style.material = material_of(BodyMaterial::kBottom);
-  style.texture_height_m = kBottomTexture_m * scale;
+  style.texture_height_m = kBottomTextureM * scale;
   const std::size_t first = add_tube(mesh, refined(to_rings(levels, scale, girth), 3), style);
   for (std::size_t i = first; i < mesh.skins.size(); ++i) {
     const Eigen::Vector3f point = mesh.rest.points[i] / scale;
@@ -125,7 +125,7 @@ void add_collar(const Look& look, float scale, SkinnedMesh& mesh) {
                                   {1.474F + height, -0.012F, 0.066F, 0.065F, 0.063F, skin}};
   TubeStyle style;
   style.material = material_of(BodyMaterial::kSleeve);
-  style.texture_height_m = kSleeveTexture_m * scale;
+  style.texture_height_m = kSleeveTextureM * scale;
   add_tube(mesh, to_rings(levels, scale, 1.0F), style);
 }
 
@@ -142,7 +142,7 @@ void add_trunk(const Skeleton& skeleton, const Look& look, SkinnedMesh& mesh) {
   TubeStyle style;
   style.sides = 30;
   style.material = material_of(BodyMaterial::kTop);
-  style.texture_height_m = kTopTexture_m * scale;
+  style.texture_height_m = kTopTextureM * scale;
   const std::size_t first =
       add_tube(mesh, refined(to_rings(shirt_levels(look), scale, girth), 2), style);
   soften_shoulders(scale, first, mesh);
