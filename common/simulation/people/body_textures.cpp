@@ -50,7 +50,8 @@ void draw_buttons(const Look& look, cv::Mat& image) {
   for (const double right : {-0.016, 0.016}) {
     cv::line(image, on_top(image, right, 0.05), on_top(image, right, 0.66), seam, 1, cv::LINE_AA);
   }
-  for (double down = 0.09; down < 0.62; down += 0.085) {
+  for (int button = 0; button < 7; ++button) {
+    const double down = 0.09 + 0.085 * button;
     cv::circle(image, on_top(image, 0.0, down), 4, shade(look.top_cloth.second, 0.8), cv::FILLED,
                cv::LINE_AA);
     cv::circle(image, on_top(image, 0.0, down), 2, {235, 240, 240}, cv::FILLED, cv::LINE_AA);

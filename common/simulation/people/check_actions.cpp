@@ -82,16 +82,25 @@ std::string action_label(const PersonDescription& person, std::size_t action) {
          name_of(person.actions.at(action).kind) + ")";
 }
 
+namespace {
+
+Expected<void> check_actions_of(const PersonDescription& person, const Props& props) {
+  for (std::size_t i = 0; i < person.actions.size(); ++i) {
+    if (const auto problem = problem_of(person.actions[i], props)) {
+      return make_error(ExitCode::kBadData, action_label(person, i) + " " + *problem);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
 Expected<void> check_actions(const std::vector<PersonDescription>& people, const Props& props) {
   for (const PersonDescription& person : people) {
     if (const auto problem = problem_of(person)) {
       return make_error(ExitCode::kBadData, "person '" + person.name + "' " + *problem);
     }
-    for (std::size_t i = 0; i < person.actions.size(); ++i) {
-      if (const auto problem = problem_of(person.actions[i], props)) {
-        return make_error(ExitCode::kBadData, action_label(person, i) + " " + *problem);
-      }
-    }
+    if (auto checked = check_actions_of(person, props); !checked) return checked;
   }
   return {};
 }

@@ -45,8 +45,8 @@ class Choreography {
                                                    const std::map<std::string, Prop>& props,
                                                    std::uint64_t seed);
 
-  Choreography(Choreography&&) noexcept;
-  Choreography& operator=(Choreography&&) noexcept;
+  Choreography(Choreography&& other) noexcept;
+  Choreography& operator=(Choreography&& other) noexcept;
   Choreography(const Choreography&) = delete;
   Choreography& operator=(const Choreography&) = delete;
   ~Choreography();
