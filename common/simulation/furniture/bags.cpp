@@ -90,7 +90,9 @@ FurnitureModel rug(Random& random) {
   parts.add(render::make_picture(size.y(), size.x(), pile),
             tilted({0.5F * size.x(), 0.0F, 0.0095F}, -0.5 * std::numbers::pi));
   for (const float side : {-1.0F, 1.0F}) {  // fringes
-    for (float x = -0.5F * size.x() + 0.01F; x < 0.5F * size.x(); x += 0.03F) {
+    const auto fringes = static_cast<int>((size.x() - 0.02F) / 0.03F);
+    for (int i = 0; i <= fringes; ++i) {
+      const float x = -0.5F * size.x() + 0.01F + 0.03F * static_cast<float>(i);
       const float y = side * (0.5F * size.y() + 0.03F);
       parts.box({0.012F, 0.06F, 0.005F}, {x, y, 0.0F}, edge, 0.1 * random.normal());
     }
@@ -119,7 +121,7 @@ FurnitureModel coat_rack(Random& random) {
     const auto length = static_cast<float>(random.uniform(0.7, 1.0));
     for (int k = 0; k <= 6; ++k) {
       const float share = static_cast<float>(k) / 6.0F;
-      const float half = 0.03F + 0.15F * std::sqrt(share);
+      const float half = 0.05F + 0.17F * std::sqrt(share);
       const Vector3f across(-out.y(), out.x(), 0.0F);
       rings.push_back({(0.14F + 0.02F * share) * out + (z + 0.03F - length * share) * up,
                        0.35F * half * (k % 2 == 0 ? 1.0F : 1.25F) * out, -half * across});

@@ -26,7 +26,7 @@ Extent extent_of(const render::Mesh& mesh) {
 
 bool is_same(const render::Texture& a, const render::Texture& b) {
   for (int i = 0; i < 400; ++i) {  // places all over the picture
-    const float step = static_cast<float>(i);
+    const auto step = static_cast<float>(i);
     const Eigen::Vector2f uv(0.37F * step, 0.0025F * step);
     if (a.sample(uv, 0.0F) != b.sample(uv, 0.0F)) return false;
   }

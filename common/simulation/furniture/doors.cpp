@@ -55,24 +55,29 @@ void add_handle(Assembly& leaf, float y, float side) {
             0.009F, steel);
 }
 
-/// A leaf in its own axes: hinges along z at the origin, closed along +y, its face at x = 0.
+/// A leaf in its own axes: hinges along z at the origin, closed along +y, its face at x = 0. Two
+/// thin panels in a frame of posts and rails.
 render::Mesh make_leaf(float width_m, float height_m, Random& random) {
   const render::Material board = random.chance(0.5)
                                      ? materials::wood(textures::Wood::kBeech, random)
                                      : materials::plain({206, 212, 215}, 0.25F);
+  constexpr float kPost = 0.12F;
+  const float x = -0.5F * kLeaf;
+  const float middle = 0.5F * width_m;
+  const float inner = width_m - 2.0F * kPost;
   Assembly leaf;
-  leaf.box({kLeaf, width_m, height_m}, {-0.5F * kLeaf, 0.5F * width_m, 0.0F}, board);
-  for (const float side : {-1.0F, 1.0F}) {
-    const float face = side > 0.0F ? 0.0F : -kLeaf;
-    for (const float z : {0.2F, 1.15F}) {  // raised panels
-      leaf.cushion({0.014F, width_m - 0.28F, 0.75F}, placed({face, 0.5F * width_m, z}), 0.006F,
-                   board);
-    }
-    add_handle(leaf, width_m - 0.07F, side);
+  for (const float y : {0.5F * kPost, width_m - 0.5F * kPost}) {
+    leaf.box({kLeaf, kPost, height_m}, {x, y, 0.0F}, board);
   }
-  // A name plate, at the height of the eyes.
-  leaf.box({0.004F, 0.2F, 0.1F}, {0.009F, 0.5F * width_m, 1.55F},
-           materials::pictured(textures::label({232, 236, 238}, random), 0.2, 0.3F));
+  leaf.box({kLeaf, inner, 0.2F}, {x, middle, 0.0F}, board);
+  leaf.box({kLeaf, inner, 0.16F}, {x, middle, 0.9F}, board);
+  leaf.box({kLeaf, inner, kPost}, {x, middle, height_m - kPost}, board);
+  leaf.box({0.6F * kLeaf, inner, 0.7F}, {x, middle, 0.2F}, board);
+  leaf.box({0.6F * kLeaf, inner, height_m - kPost - 1.06F}, {x, middle, 1.06F}, board);
+  for (const float side : {-1.0F, 1.0F}) add_handle(leaf, width_m - 0.06F, side);
+  render::Mesh plate = render::make_picture(
+      0.2F, 0.1F, materials::pictured(textures::label({232, 236, 238}, random), 1.0, 0.3F));
+  leaf.add(plate, placed({-0.2F * kLeaf + 0.003F, middle, 1.52F}));
   return leaf.finished();
 }
 

@@ -73,8 +73,7 @@ Material glowing(const Colour& colour, float emission) {
 
 Colour upholstery_colour(Random& random) {
   if (random.chance(0.4)) return paint::scaled({235, 232, 230}, random.uniform(0.15, 0.5));
-  return paint::hsv(random.uniform(0.0, 360.0), random.uniform(0.3, 0.75),
-                    random.uniform(0.25, 0.65));
+  return paint::scaled(paint::any_colour(random), 0.8);
 }
 
 }  // namespace tsg::simulation::materials

@@ -30,7 +30,12 @@ Colour scaled(const Colour& colour, double factor) {
 }
 
 Colour any_colour(Random& random) {
-  return hsv(random.uniform(0.0, 360.0), random.uniform(0.45, 0.9), random.uniform(0.35, 0.9));
+  // Hues that things are sold in: reds to yellows, greens, blues; hardly any violet.
+  constexpr std::array<double, 10> kHues = {2.0,   12.0,  28.0,  45.0,  90.0,
+                                            150.0, 185.0, 208.0, 222.0, 335.0};
+  const auto index = static_cast<std::size_t>(random.integer(0, kHues.size() - 1));
+  const double hue = kHues.at(index) + random.uniform(0.0, 12.0);
+  return hsv(hue, random.uniform(0.35, 0.78), random.uniform(0.3, 0.82));
 }
 
 cv::Mat flat(const cv::Size& size, const Colour& colour) { return {size, CV_8UC3, colour}; }

@@ -122,8 +122,7 @@ FurnitureModel round_table(Random& random) {
   constexpr float kTop = 0.74F;
   const auto radius = static_cast<float>(random.uniform(0.45, 0.6));
   const render::Material edge = materials::any_wood(random);
-  // The face's uv is in metres, as a turned one's would be around the middle.
-  const render::Material steel = materials::metal({120, 120, 122}, random);
+  const render::Material steel = materials::plain({95, 95, 97}, 0.4F);
   Assembly parts;
   parts.turned({{{0.0F, kTop - 0.028F}, {radius - 0.01F, kTop - 0.028F}},
                 {{radius - 0.01F, kTop - 0.028F},

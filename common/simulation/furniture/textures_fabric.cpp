@@ -142,7 +142,7 @@ cv::Mat cardboard(Random& random) {
   const Colour ink(60, 70, 80);
   cv::Mat picture = paint::flat(kSize, brown);
   paint::fill(picture, {0, 112, kSide, 26}, {118, 170, 205});  // tape
-  paint::write(picture, paint::phrase(random, 1), {18, 60}, 26, ink);
+  paint::write(picture, paint::phrase(random, 1), {18, 60}, 16, ink);
   paint::print_lines(picture, {20, 72, 110, 30}, 8, ink, random);
   cv::rectangle(picture, {168, 26, 60, 66}, ink, 3);
   cv::arrowedLine(picture, {184, 84}, {184, 36}, ink, 4, cv::LINE_AA, 0, 0.35);

@@ -34,11 +34,12 @@ void add_tree(cv::Mat& picture, const cv::Point& foot, int height, Random& rando
   const Colour trunk(30, 45, 60);
   const Colour green = paint::hsv(random.uniform(70.0, 130.0), 0.6, random.uniform(0.25, 0.5));
   cv::line(picture, foot, foot - cv::Point(0, height), trunk, std::max(1, height / 14));
-  for (int i = 0; i < 26; ++i) {
+  for (int i = 0; i < 90; ++i) {
     const cv::Point at = foot + cv::Point(random.integer(-height / 3, height / 3),
                                           -height + random.integer(-height / 3, height / 3));
-    cv::circle(picture, at, height / random.integer(7, 11),
-               paint::scaled(green, random.uniform(0.6, 1.4)), cv::FILLED, cv::LINE_AA);
+    cv::circle(picture, at, height / random.integer(10, 18),
+               paint::scaled(green, (i < 45 ? 0.75 : 1.15) * random.uniform(0.75, 1.25)),
+               cv::FILLED, cv::LINE_AA);
   }
 }
 

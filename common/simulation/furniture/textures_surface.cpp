@@ -70,10 +70,10 @@ cv::Mat carpet_tiles(const Colour& colour, Random& random) {
 
 cv::Mat linoleum(const Colour& colour, Random& random) {
   const cv::Size size = square(kSide);
-  const cv::Mat swirls = paint::fractal(size, {16, 32}, 5, random);
+  const cv::Mat swirls = paint::fractal(size, {32, 32}, 5, random);
   const cv::Mat wear = paint::fractal(size, square(2), 3, random);
   cv::Mat picture = paint::flat(size, colour);
-  paint::shade(picture, 0.3 * swirls + 0.1 * wear);
+  paint::shade(picture, 0.2 * swirls + 0.1 * wear);
   sprinkle(picture, 2500, 0.35, random);
   scuff(picture, 40, random);
   return picture;
@@ -101,7 +101,7 @@ cv::Mat plaster(const Colour& colour, Random& random) {
   const cv::Mat trowel = paint::fractal(size, square(8), 4, random);
   const cv::Mat bumps = paint::fractal(size, square(kSide / 8), 3, random);
   cv::Mat picture = paint::flat(size, colour);
-  paint::shade(picture, 0.05 * trowel + 0.07 * bumps);
+  paint::shade(picture, 0.03 * trowel + 0.035 * bumps);
   scuff(picture, 130, random);
   return picture;
 }

@@ -168,7 +168,9 @@ void add_wall_fittings(Assembly& parts, const Wall& wall) {
     if (y < wall.width_m - 0.1F) add_plate(fittings, {0.0F, y, 1.05F}, false);
   }
   add_skirting(fittings, from, wall.width_m);
-  for (float y = 0.7F; y < wall.width_m - 0.3F; y += kSocketPitch) {
+  const auto sockets = static_cast<int>(std::ceil((wall.width_m - 1.0F) / kSocketPitch));
+  for (int i = 0; i < sockets; ++i) {
+    const float y = 0.7F + kSocketPitch * static_cast<float>(i);
     const bool is_free = std::none_of(doors.begin(), doors.end(), [&](const Hole& door) {
       return y > door.left_m - 0.15F && y < door.right_m + 0.15F;
     });
