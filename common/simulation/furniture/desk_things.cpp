@@ -24,10 +24,11 @@ void add_key(Assembly& parts,
              const render::Material& caps,
              Random& random) {
   render::Mesh key = render::make_box({0.0155F, width_m, 0.006F}, caps);
-  // Letters stand upright for who sits at +x: right of them is -y... the box's top has u along x.
+  // Letters stand upright for who sits at +x.
   const int cell = random.integer(0, 15);
+  const int cell_row = cell / 4;
   const Eigen::Vector2f corner(0.25F * static_cast<float>(cell % 4),
-                               0.25F * static_cast<float>(cell / 4));
+                               0.25F * static_cast<float>(cell_row));
   for (std::size_t i = 0; i < key.uvs.size(); ++i) {
     const Vector3f& point = key.points[i];
     const Eigen::Vector2f share(point.y() / width_m + 0.5F, point.x() / 0.0155F + 0.5F);

@@ -139,7 +139,8 @@ FurnitureModel microwave(Random& random) {
             placed({0.1815F, 0.17F, 0.235F}));
   for (int i = 0; i < 12; ++i) {
     const float y = 0.145F + 0.025F * static_cast<float>(i % 3);
-    const float z = 0.2F - 0.032F * static_cast<float>(i / 3);
+    const int row = i / 3;
+    const float z = 0.2F - 0.032F * static_cast<float>(row);
     parts.box({0.004F, 0.018F, 0.018F}, {0.182F, y, z}, dark);
   }
   return appliance("microwave", parts, double{height} + 0.01);

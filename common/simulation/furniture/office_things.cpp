@@ -126,8 +126,9 @@ FurnitureModel printer(Random& random) {
   parts.add(render::make_picture(0.13F, 0.06F, materials::lit_screen(textures::screen(random))),
             tilted({0.205F, 0.12F, 0.245F}, -0.5));
   for (int i = 0; i < 8; ++i) {
+    const int row = i / 4;
     parts.box({0.012F, 0.012F, 0.004F},
-              {0.17F - 0.022F * static_cast<float>(i / 4),
+              {0.17F - 0.022F * static_cast<float>(row),
                -0.02F - 0.025F * static_cast<float>(i % 4), 0.303F},
               i == 0 ? materials::plain({60, 180, 60}) : dark);
   }

@@ -74,7 +74,8 @@ FurnitureModel laptop(Random& random) {
   constexpr float kKey = 0.019F;
   const int columns = static_cast<int>((width - 0.03F) / kKey);
   for (int i = 0; i < 5 * columns; ++i) {
-    const float x = -0.35F * depth + kKey * static_cast<float>(i / columns);
+    const int row = i / columns;
+    const float x = -0.35F * depth + kKey * static_cast<float>(row);
     const float y =
         kKey * (static_cast<float>(i % columns) - 0.5F * static_cast<float>(columns - 1));
     parts.box({0.016F, 0.016F, 0.002F}, {x, y, 0.016F}, keys);
