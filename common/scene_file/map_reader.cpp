@@ -1,6 +1,7 @@
 #include "common/scene_file/map_reader.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
