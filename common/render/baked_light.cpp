@@ -1,37 +1,28 @@
 #include "common/render/baked_light.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
-#include <opencv2/core/utility.hpp>
 
+#include "common/render/parallel.hpp"
 #include "common/render/sampling.hpp"
 
 namespace tsg::render {
 namespace {
 
+// Lamps that are wholly in sight or wholly hidden, most of them, are seen to be so by few rays.
+constexpr int kFirstLampSamples = 4;
 constexpr int kLampSamples = 16;
-constexpr int kFirstBounceRays = 32;
-constexpr int kSecondBounceRays = 96;  // the visible result: it must not look mottled
-constexpr float kWorthwhile = 0.01F;   // lamps below this share of the strongest one are left out
+constexpr std::size_t kMostLamps = 12;  // of a point; the others are far away or behind walls
+constexpr float kWorthwhile = 0.02F;    // lamps below this share of the strongest one are left out
+// Few rays, and their errors averaged with the neighbours', instead of many rays.
+constexpr int kFirstBounceRays = 12;
+constexpr int kSecondBounceRays = 24;
+constexpr int kSmoothings = 4;
 // Bounces beyond the second: what is left of a geometric series with the usual reflection of a
 // furnished room, 0.4.
 constexpr float kAllBounces = 1.15F;
 constexpr float kLiftM = 2e-3F;
-
-void for_each(std::size_t count, const std::function<void(std::size_t)>& work) {
-  cv::parallel_for_(cv::Range(0, static_cast<int>(count)), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) work(static_cast<std::size_t>(i));
-  });
-}
-
-/// What a surface throws back at a hit.
-Eigen::Vector3f thrown_back(const Layer& layer,
-                            const Hit& hit,
-                            const std::vector<Eigen::Vector3f>& light) {
-  const Triangle& triangle = layer.mesh.triangles[hit.triangle];
-  return at_hit(triangle, hit, light).cwiseProduct(layer.reflection[triangle.material]);
-}
 
 /// Corners, drawn a little into the faces around them: a corner at the foot of a wall lies on the
 /// floor as well, and rays from there would start inside it.
@@ -60,6 +51,22 @@ std::vector<SurfacePoint> places_of(const Mesh& mesh) {
   return places;
 }
 
+/// Averages each corner with those that it shares triangles with. Faces that meet at an edge have
+/// corners of their own, so that light does not creep around it.
+void smooth(const std::vector<Triangle>& triangles, std::vector<Eigen::Vector3f>& values) {
+  std::vector<Eigen::Vector3f> sums = values;
+  std::vector<float> weights(values.size(), 1.0F);
+  for (const Triangle& triangle : triangles) {
+    const auto& [a, b, c] = triangle.corners;
+    const Eigen::Vector3f sum = values[a] + values[b] + values[c];
+    for (const std::uint32_t corner : triangle.corners) {
+      sums[corner] += sum;
+      weights[corner] += 3.0F;
+    }
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = sums[i] / weights[i];
+}
+
 class Baker {
  public:
   Baker(const Layer& layer, const std::vector<Lamp>& lamps) : layer_(layer), lamps_(lamps) {}
@@ -68,43 +75,71 @@ class Baker {
     const std::size_t count = layer_.mesh.points.size();
     light_.places = places_of(layer_.mesh);
     light_.strong.resize(count);
-    light_.rest.resize(count, Eigen::Vector3f::Zero());
+    light_.rest.assign(count, Eigen::Vector3f::Zero());
     light_.total.resize(count);
     light_.bounced.resize(count);
-    for_each(count, [this](std::size_t i) { add_lamps(i); });
+    for_each_index(count, [this](std::size_t i) { add_lamps(i); });
     const std::vector<Eigen::Vector3f> direct = light_.total;
-    for_each(count, [&](std::size_t i) {
-      light_.total[i] = direct[i] + bounced<kFirstBounceRays>(i, direct);
-    });
-    const std::vector<Eigen::Vector3f> once = light_.total;
-    for_each(count, [&](std::size_t i) {
-      light_.bounced[i] = kAllBounces * bounced<kSecondBounceRays>(i, once);
+    add_bounce<kFirstBounceRays>(direct);
+    add_bounce<kSecondBounceRays>(direct);
+    for (std::size_t i = 0; i < count; ++i) {
+      light_.bounced[i] *= kAllBounces;
       light_.total[i] = direct[i] + light_.bounced[i];
-    });
+    }
     return std::move(light_);
   }
 
  private:
   void add_lamps(std::size_t i) {
     const SurfacePoint& point = light_.places[i];
-    StrongLamps& strong = light_.strong[i] = strongest_lamps(lamps_, point);
-    const float worthwhile = kWorthwhile * strong.front().light.sum();
-    for (std::uint32_t lamp = 0; lamp < lamps_.size(); ++lamp) {
-      if (!(open_light(lamps_[lamp], point).sum() > worthwhile)) continue;
-      const auto salt = static_cast<std::uint32_t>(i);
-      const Eigen::Vector3f light =
-          lamp_light(lamps_[lamp], point, layer_.rays, kLampSamples, salt);
-      const auto known = std::ranges::find_if(strong, [&](const LampShare& share) {
-        return share.lamp == lamp && share.light.sum() > 0.0F;
-      });
-      if (known == strong.end()) {
-        light_.rest[i] += light;
+    const std::vector<LampShare> open = worthwhile_lamps(point);
+    const auto salt = static_cast<std::uint32_t>(i);
+    light_.total[i] = Eigen::Vector3f::Zero();
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      const Eigen::Vector3f light = soft_light(open[k], point, salt);
+      light_.total[i] += light;
+      if (k < kStrongLamps) {
+        light_.strong[i].at(k) = {open[k].lamp, light};
       } else {
-        known->light = light;
+        light_.rest[i] += light;
       }
     }
-    light_.total[i] = light_.rest[i];
-    for (const LampShare& share : strong) light_.total[i] += share.light;
+  }
+
+  /// The lamps that matter if nothing stands in between, brightest first.
+  [[nodiscard]] std::vector<LampShare> worthwhile_lamps(const SurfacePoint& point) const {
+    std::vector<LampShare> open;
+    for (std::uint32_t lamp = 0; lamp < lamps_.size(); ++lamp) {
+      const Eigen::Vector3f light = open_light(lamps_[lamp], point);
+      if (light.sum() > 0.0F) open.push_back({lamp, light});
+    }
+    std::ranges::stable_sort(
+        open, [](const LampShare& a, const LampShare& b) { return a.light.sum() > b.light.sum(); });
+    while (open.size() > kMostLamps ||
+           (!open.empty() && open.back().light.sum() < kWorthwhile * open.front().light.sum())) {
+      open.pop_back();
+    }
+    return open;
+  }
+
+  [[nodiscard]] Eigen::Vector3f soft_light(const LampShare& open,
+                                           const SurfacePoint& point,
+                                           std::uint32_t salt) const {
+    const Lamp& lamp = lamps_[open.lamp];
+    const float in_sight = lamp_in_sight(lamp, point, layer_.rays, kFirstLampSamples, salt);
+    if (in_sight <= 0.0F) return Eigen::Vector3f::Zero();
+    if (in_sight >= 1.0F) return open.light;
+    return lamp_light(lamp, point, layer_.rays, kLampSamples, salt);
+  }
+
+  /// Brings bounced and total light up to date with one more bounce of the present total.
+  template <int kRays>
+  void add_bounce(const std::vector<Eigen::Vector3f>& direct) {
+    const std::vector<Eigen::Vector3f> light = light_.total;
+    for_each_index(light.size(),
+                   [&](std::size_t i) { light_.bounced[i] = bounced<kRays>(i, light); });
+    for (int i = 0; i < kSmoothings; ++i) smooth(layer_.mesh.triangles, light_.bounced);
+    for (std::size_t i = 0; i < light.size(); ++i) light_.total[i] = direct[i] + light_.bounced[i];
   }
 
   /// What the surfaces around throw back at point i, of the light that falls on them.
@@ -132,108 +167,17 @@ class Baker {
   BakedLight light_;
 };
 
-constexpr float kSpacingM = 0.8F;
-constexpr int kProbeRays = 128;
-constexpr float kTooCloseM = 0.03F;
-
-Eigen::Vector3f axis(std::size_t face) {
-  const auto along = static_cast<Eigen::Index>(face / 2);
-  return (face % 2 == 0 ? 1.0F : -1.0F) * Eigen::Vector3f::Unit(along);
-}
-
 }  // namespace
 
 BakedLight bake_light(const Layer& layer, const std::vector<Lamp>& lamps) {
   return Baker(layer, lamps).bake();
 }
 
-BouncedLightField::BouncedLightField(const Layer& layer, const BakedLight& light) {
-  Eigen::Vector3f low = Eigen::Vector3f::Zero();
-  Eigen::Vector3f high = Eigen::Vector3f::Zero();
-  if (!layer.mesh.points.empty()) low = high = layer.mesh.points.front();
-  for (const Eigen::Vector3f& point : layer.mesh.points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  origin_m_ = low + Eigen::Vector3f::Constant(0.3F * kSpacingM);
-  size_ = ((high - low) / kSpacingM).array().ceil().cast<int>().max(1);
-  probes_.resize(static_cast<std::size_t>(size_.prod()));
-  for_each(probes_.size(), [&](std::size_t i) { probes_[i] = measure(layer, light, i); });
-}
-
-Eigen::Vector3f BouncedLightField::position(std::size_t index) const {
-  const auto i = static_cast<int>(index);
-  const Eigen::Vector3i cell(i % size_.x(), i / size_.x() % size_.y(), i / size_.x() / size_.y());
-  return origin_m_ + kSpacingM * cell.cast<float>();
-}
-
-std::size_t BouncedLightField::index_of(const Eigen::Vector3i& cell) const {
-  return static_cast<std::size_t>((cell.z() * size_.y() + cell.y()) * size_.x() + cell.x());
-}
-
-BouncedLightField::Probe BouncedLightField::measure(const Layer& layer,
-                                                    const BakedLight& light,
-                                                    std::size_t index) const {
-  std::array<Ray, kProbeRays> rays;
-  std::array<Hit, kProbeRays> hits;
-  for (int k = 0; k < kProbeRays; ++k) {
-    rays.at(static_cast<std::size_t>(k)) = {position(index),
-                                            sphere_direction(spread_point(k, kProbeRays, 0))};
-  }
-  layer.rays.cast(rays, hits, RayScene::Likeness::kScattered);
-  Probe probe;
-  probe.light.fill(Eigen::Vector3f::Zero());
-  int backs = 0;
-  for (std::size_t k = 0; k < kProbeRays; ++k) {
-    if (!hits.at(k).is_hit()) continue;
-    const Triangle& triangle = layer.mesh.triangles[hits.at(k).triangle];
-    const Eigen::Vector3f normal = at_hit(triangle, hits.at(k), layer.mesh.normals);
-    if (normal.dot(rays.at(k).direction) > 0.0F || hits.at(k).distance < kTooCloseM) {
-      ++backs;
-      continue;
-    }
-    const Eigen::Vector3f radiance = thrown_back(layer, hits.at(k), light.total);
-    for (std::size_t face = 0; face < probe.light.size(); ++face) {
-      const float share = axis(face).dot(rays.at(k).direction);
-      // 4 / N is what makes the cosine-weighted mean over a sphere's rays that of a hemisphere.
-      if (share > 0.0F) probe.light.at(face) += 4.0F / kProbeRays * share * radiance;
-    }
-  }
-  // A probe that sees many backs of surfaces sits inside something.
-  probe.weight = 4 * backs < kProbeRays ? 1.0F : 0.0F;
-  return probe;
-}
-
-Eigen::Vector3f BouncedLightField::at(const SurfacePoint& point) const {
-  const Eigen::Vector3f place = ((point.position - origin_m_) / kSpacingM)
-                                    .cwiseMax(0.0F)
-                                    .cwiseMin((size_ - Eigen::Vector3i::Ones()).cast<float>());
-  const Eigen::Vector3i cell =
-      place.cast<int>().cwiseMin(size_ - Eigen::Vector3i::Constant(2)).cwiseMax(0);
-  const Eigen::Vector3f share = place - cell.cast<float>();
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  float weights = 0.0F;
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3i step(static_cast<int>(corner & 1U), static_cast<int>(corner >> 1U & 1U),
-                               static_cast<int>(corner >> 2U));
-    const Probe& probe = probes_[index_of((cell + step).cwiseMin(size_ - Eigen::Vector3i::Ones()))];
-    const Eigen::Vector3f near = (step.array() == 1).select(share, Eigen::Vector3f::Ones() - share);
-    const float weight = probe.weight * (near.prod() + 1e-4F);
-    weights += weight;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      const float along = point.normal[i];
-      const auto face = static_cast<std::size_t>(2 * i + (along < 0.0F ? 1 : 0));
-      sum += weight * along * along * probe.light.at(face);
-    }
-  }
-  return weights > 0.0F ? Eigen::Vector3f(sum / weights) : Eigen::Vector3f::Zero();
-}
-
 std::vector<float> bake_openness(const Layer& body) {
   constexpr int kRays = 32;
   constexpr float kReachM = 0.5F;
   std::vector<float> openness(body.mesh.points.size());
-  for_each(openness.size(), [&](std::size_t i) {
+  for_each_index(openness.size(), [&](std::size_t i) {
     const Eigen::Vector3f& normal = body.mesh.normals[i];
     std::array<Ray, kRays> rays;
     std::array<bool, kRays> blocked{};

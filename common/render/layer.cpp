@@ -42,4 +42,11 @@ Layer make_layer(const std::vector<Part>& parts, RayScene::Use use, float max_ed
   return layer;
 }
 
+Eigen::Vector3f thrown_back(const Layer& layer,
+                            const Hit& hit,
+                            const std::vector<Eigen::Vector3f>& light) {
+  const Triangle& triangle = layer.mesh.triangles[hit.triangle];
+  return at_hit(triangle, hit, light).cwiseProduct(layer.reflection[triangle.material]);
+}
+
 }  // namespace tsg::render

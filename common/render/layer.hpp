@@ -36,4 +36,9 @@ template <typename T>
   return (1.0F - hit.u - hit.v) * values[a] + hit.u * values[b] + hit.v * values[c];
 }
 
+/// What the surface throws back at a hit of the `light` that falls on the corners.
+[[nodiscard]] Eigen::Vector3f thrown_back(const Layer& layer,
+                                          const Hit& hit,
+                                          const std::vector<Eigen::Vector3f>& light);
+
 }  // namespace tsg::render

@@ -9,7 +9,7 @@
 namespace tsg::render {
 namespace {
 
-constexpr float kLightGridM = 0.12F;    // light changes little within a hand's breadth
+constexpr float kLightGridM = 0.16F;    // light changes little within a hand's length
 constexpr float kShadowReachM = 2.5F;   // farther from a body its shadow is too soft to be seen
 constexpr float kContactReachM = 0.6F;  // within it a body takes bounced light away as well
 constexpr int kBodyShadowSamples = 4;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/render/baked_light.hpp"
+#include "common/render/bounced_light_field.hpp"
 #include "common/render/lamp.hpp"
 #include "common/render/layer.hpp"
 
