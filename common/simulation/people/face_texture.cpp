@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -93,9 +94,11 @@ void paint_glasses(const FacePainter& face) {
   const cv::Scalar frame(28, 26, 30);
   for (const double side : {-1.0, 1.0}) {
     const double y = side * kEyeAsideM;
-    const cv::Point2d corners[] = {
-        {y - 0.021, 1.651}, {y + 0.021, 1.651}, {y + 0.021, 1.621}, {y - 0.021, 1.621}};
-    for (int i = 0; i < 4; ++i) face.line(corners[i], corners[(i + 1) % 4], frame, 5);
+    const std::array<cv::Point2d, 4> corners{
+        {{y - 0.021, 1.651}, {y + 0.021, 1.651}, {y + 0.021, 1.621}, {y - 0.021, 1.621}}};
+    for (std::size_t i = 0; i < 4; ++i) {
+      face.line(corners.at(i), corners.at((i + 1) % 4), frame, 5);
+    }
     face.line({side * 0.052, 1.647}, {side * 0.0735, 1.645}, frame, 5);
   }
   face.line({-0.010, 1.645}, {0.010, 1.645}, frame, 5);
