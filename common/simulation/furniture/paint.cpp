@@ -43,8 +43,9 @@ cv::Mat flat(const cv::Size& size, const Colour& colour) { return {size, CV_8UC3
 cv::Mat noise(const cv::Size& size, const cv::Size& cells, Random& random) {
   TSG_CHECK(size.width % cells.width == 0 && size.height % cells.height == 0);
   cv::Mat grid(cells, CV_32FC1);
-  for (auto value = grid.begin<float>(); value != grid.end<float>(); ++value) {
-    *value = static_cast<float>(random.uniform(-1.0, 1.0));
+  cv::Mat_<float> values(grid);  // shares the pixels
+  for (int i = 0; i < grid.rows * grid.cols; ++i) {
+    values(i / grid.cols, i % grid.cols) = static_cast<float>(random.uniform(-1.0, 1.0));
   }
   if (cells == size) return grid;
   constexpr int kBorder = 2;  // what cubic interpolation reaches
