@@ -60,11 +60,11 @@ void set_smooth_normals(Mesh& mesh) {
 /// First and last points of rows lie on each other, but have uvs of their own: one normal for both.
 void join_seam(Mesh& mesh, std::uint32_t rows, std::uint32_t columns) {
   for (std::uint32_t row = 0; row < rows; ++row) {
-    Eigen::Vector3f& first = mesh.normals[row * (columns + 1)];
-    Eigen::Vector3f& last = mesh.normals[row * (columns + 1) + columns];
+    const std::uint32_t begin = row * (columns + 1);
+    Eigen::Vector3f& first = mesh.normals[begin];
+    Eigen::Vector3f& last = mesh.normals[begin + columns];
     // Where the row shrinks to a point, the last one has no face and hence no normal of its own.
-    const bool is_pole =
-        (mesh.points[row * (columns + 1)] - mesh.points[row * (columns + 1) + 1]).isZero(1e-9F);
+    const bool is_pole = (mesh.points[begin] - mesh.points[begin + 1]).isZero(1e-9F);
     first = last = is_pole ? first : Eigen::Vector3f((first + last).normalized());
   }
 }
@@ -116,6 +116,22 @@ void add_sharp_face(Mesh& mesh, const SharpFace& face) {
   const auto width = static_cast<std::uint32_t>(columns.size());
   for (std::uint32_t row = 0; row + 1 < rows.size(); ++row) {
     join_rows(mesh, first + row * width, first + (row + 1) * width, width - 1);
+  }
+}
+
+/// Closes a tube at the row of points that begins at `first`.
+void add_cap(Mesh& mesh,
+             const Eigen::Vector3f& middle,
+             std::uint32_t first,
+             std::uint32_t columns,
+             bool is_end) {
+  const auto centre = static_cast<std::uint32_t>(mesh.points.size());
+  mesh.points.push_back(middle);
+  mesh.uvs.emplace_back(mesh.uvs[first]);
+  for (std::uint32_t here = first; here < first + columns; ++here) {
+    const std::uint32_t a = is_end ? here : here + 1;
+    const std::uint32_t b = is_end ? here + 1 : here;
+    mesh.triangles.push_back({{a, b, centre}, 0});
   }
 }
 
@@ -229,21 +245,8 @@ Mesh make_tube(const std::vector<TubeRing>& rings, int sides, const Material& ma
   for (std::uint32_t row = 0; row + 1 < rows; ++row) {
     join_rows(mesh, row * (columns + 1), (row + 1) * (columns + 1), columns);
   }
-  const auto add_cap = [&](std::uint32_t row, bool is_end) {
-    const auto centre = static_cast<std::uint32_t>(mesh.points.size());
-    mesh.points.push_back(rings[row].centre);
-    mesh.uvs.emplace_back(mesh.uvs[row * (columns + 1)]);
-    for (std::uint32_t i = 0; i < columns; ++i) {
-      const std::uint32_t here = row * (columns + 1) + i;
-      if (is_end) {
-        mesh.triangles.push_back({{here, here + 1, centre}, 0});
-      } else {
-        mesh.triangles.push_back({{here + 1, here, centre}, 0});
-      }
-    }
-  };
-  add_cap(0, false);
-  add_cap(rows - 1, true);
+  add_cap(mesh, rings.front().centre, 0, columns, false);
+  add_cap(mesh, rings.back().centre, (rows - 1) * (columns + 1), columns, true);
   set_smooth_normals(mesh);
   join_seam(mesh, rows, columns);
   return mesh;
