@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "common/simulation/furniture/assembly.hpp"
 #include "common/simulation/furniture/materials.hpp"
@@ -19,41 +20,40 @@ struct Leaf {
   float droop_rad = 1.2F;  ///< how far its tip bends down from there
 };
 
-/// One side of a leaf that starts at the origin and bends along +x; uv over the leaf's picture.
-void add_leaf_side(render::Mesh& mesh, const Leaf& leaf, float side) {
-  constexpr int kSteps = 7;
-  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+constexpr std::uint32_t kLeafSteps = 7;  // rows of faces along a leaf
+
+/// Points, normals and uvs of one side (1: upper, -1: lower) of a leaf that starts at the origin
+/// and bends along +x: rows of three, across the middle rib.
+void add_leaf_points(render::Mesh& mesh, const Leaf& leaf, float side) {
   Vector3f spine = Vector3f::Zero();
-  for (int i = 0; i <= kSteps; ++i) {
-    const float share = static_cast<float>(i) / kSteps;
+  for (std::uint32_t i = 0; i <= kLeafSteps; ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(kLeafSteps);
     const float angle = leaf.rise_rad - leaf.droop_rad * share;
     const Vector3f along(std::cos(angle), 0.0F, std::sin(angle));
-    const Vector3f normal = side * Vector3f(-along.z(), 0.0F, along.x());
+    const Vector3f up(-along.z(), 0.0F, along.x());
     // At the tip the sine may come out below zero by rounding.
     const float bulge = std::max(0.0F, std::sin(std::numbers::pi_v<float> * std::sqrt(share)));
     const float half = 0.5F * leaf.width_m * std::pow(bulge, 0.8F);
-    const float fold = 0.35F * half;  // both halves rise from the middle rib
     for (const float across : {-1.0F, 0.0F, 1.0F}) {
-      const Vector3f lift = (across == 0.0F ? 0.0F : fold) * Vector3f(-along.z(), 0.0F, along.x());
-      mesh.points.push_back(spine + Vector3f(0.0F, across * half, 0.0F) + lift);
-      mesh.normals.push_back((normal - side * 0.3F * across * Vector3f::UnitY()).normalized());
+      const float fold = 0.35F * half * std::abs(across);  // both halves rise from the rib
+      mesh.points.emplace_back(spine + across * half * Vector3f::UnitY() + fold * up);
+      mesh.normals.emplace_back(
+          (side * up - side * 0.3F * across * Vector3f::UnitY()).normalized());
       mesh.uvs.emplace_back(0.5F + 0.45F * across, 1.0F - share);
     }
-    spine += along * leaf.length_m / kSteps;
+    spine += along * leaf.length_m / static_cast<float>(kLeafSteps);
   }
-  for (std::uint32_t row = 0; row < kSteps; ++row) {
-    for (std::uint32_t column = 0; column < 2; ++column) {
-      const std::uint32_t a = first + 3 * row + column;
-      const std::array<std::uint32_t, 4> quad = {a, a + 3, a + 4, a + 1};
-      const auto [p, q, r, s] = quad;
-      if (side > 0.0F) {
-        mesh.triangles.push_back({{p, q, r}, 0});
-        mesh.triangles.push_back({{p, r, s}, 0});
-      } else {
-        mesh.triangles.push_back({{p, r, q}, 0});
-        mesh.triangles.push_back({{p, s, r}, 0});
-      }
-    }
+}
+
+void add_leaf_side(render::Mesh& mesh, const Leaf& leaf, float side) {
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  add_leaf_points(mesh, leaf, side);
+  for (std::uint32_t face = 0; face < 2 * kLeafSteps; ++face) {
+    const std::uint32_t a = first + 3 * (face / 2) + face % 2;
+    std::array<std::uint32_t, 4> quad = {a, a + 3, a + 4, a + 1};
+    if (side < 0.0F) std::swap(quad[1], quad[3]);
+    mesh.triangles.push_back({{quad[0], quad[1], quad[2]}, 0});
+    mesh.triangles.push_back({{quad[0], quad[2], quad[3]}, 0});
   }
 }
 

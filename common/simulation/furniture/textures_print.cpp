@@ -100,16 +100,14 @@ cv::Mat scientific(Random& random) {
   paint::fill(picture, {0, 0, 512, 74}, bar);
   paint::write(picture, paint::phrase(random, 3), {16, 36}, 22, {250, 250, 250});
   paint::write(picture, paint::phrase(random, 4), {16, 62}, 12, {220, 220, 220});
-  for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row) {
-      const cv::Rect cell(14 + column * 166, 88 + row * 140, 152, 128);
-      paint::write(picture, paint::phrase(random, 2), {cell.x, cell.y + 12}, 11, bar);
-      const cv::Rect body(cell.x, cell.y + 22, cell.width, cell.height - 26);
-      if ((row + column) % 2 == 0) {
-        paint::print_lines(picture, body, 9, {70, 70, 70}, random);
-      } else {
-        add_chart(picture, body, paint::any_colour(random), random);
-      }
+  for (int i = 0; i < 9; ++i) {
+    const cv::Rect cell(14 + i / 3 * 166, 88 + i % 3 * 140, 152, 128);
+    paint::write(picture, paint::phrase(random, 2), {cell.x, cell.y + 12}, 11, bar);
+    const cv::Rect body(cell.x, cell.y + 22, cell.width, cell.height - 26);
+    if (i % 2 == 0) {
+      paint::print_lines(picture, body, 9, {70, 70, 70}, random);
+    } else {
+      add_chart(picture, body, paint::any_colour(random), random);
     }
   }
   return picture;

@@ -71,20 +71,24 @@ cv::Mat web_page(Random& random) {
   return picture;
 }
 
+void fill_cell(cv::Mat& picture, const cv::Point& at, Random& random) {
+  cv::rectangle(picture, cv::Rect(at, cv::Size(53, 13)), {200, 200, 200}, 1);
+  if (random.chance(0.12)) {
+    paint::fill(picture, {at.x + 1, at.y + 1, 50, 10},
+                paint::between(paint::any_colour(random), {255, 255, 255}, 0.5));
+  }
+  if (random.chance(0.7)) {
+    paint::fill(picture, {at.x + 5, at.y + 4, random.integer(12, 42), 4}, {70, 70, 70});
+  }
+}
+
 cv::Mat spreadsheet(Random& random) {
   cv::Mat picture = paint::flat(kScreenSize, {250, 250, 250});
   paint::fill(picture, {0, 12, 512, 22}, {90, 135, 60});
-  for (int y = 34; y < 256; y += 12) {
-    for (int x = 0; x < 512; x += 52) {
-      cv::rectangle(picture, {x, y, 53, 13}, {200, 200, 200}, 1);
-      if (random.chance(0.12)) {
-        paint::fill(picture, {x + 1, y + 1, 50, 10},
-                    paint::between(paint::any_colour(random), {255, 255, 255}, 0.5));
-      }
-      if (random.chance(0.7)) {
-        paint::fill(picture, {x + 5, y + 4, random.integer(12, 42), 4}, {70, 70, 70});
-      }
-    }
+  constexpr int kColumns = 10;
+  constexpr int kRows = 19;
+  for (int i = 0; i < kColumns * kRows; ++i) {
+    fill_cell(picture, {i % kColumns * 52, 34 + i / kColumns * 12}, random);
   }
   paint::fill(picture, {300, 90, 190, 120}, {255, 255, 255});
   cv::rectangle(picture, {300, 90, 190, 120}, {130, 130, 130}, 1);

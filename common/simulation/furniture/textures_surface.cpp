@@ -35,6 +35,19 @@ void scuff(cv::Mat& picture, int count, Random& random) {
   }
 }
 
+void add_flower(cv::Mat& picture,
+                const cv::Point& centre,
+                const Colour& petals,
+                const Colour& middle) {
+  for (int petal = 0; petal < 6; ++petal) {
+    const double angle = petal * CV_PI / 3.0;
+    const cv::Point at =
+        centre + cv::Point(cvRound(13 * std::cos(angle)), cvRound(13 * std::sin(angle)));
+    cv::ellipse(picture, at, {10, 4}, petal * 60.0, 0, 360, petals, cv::FILLED, cv::LINE_AA);
+  }
+  cv::circle(picture, centre, 4, middle, cv::FILLED, cv::LINE_AA);
+}
+
 }  // namespace
 
 cv::Mat carpet(const Colour& colour, Random& random) {
@@ -111,20 +124,14 @@ cv::Mat wallpaper(const Colour& colour, Random& random) {
   constexpr int kPitch = kSmallSide / 4;
   cv::Mat picture = paint::flat(size, colour);
   const Colour stripe = paint::scaled(colour, 0.92);
-  const Colour ornament = paint::scaled(colour, 0.76);
   for (int column = 0; column < 4; ++column) {
     paint::fill(picture, {column * kPitch, 0, kPitch / 2, kSmallSide}, stripe);
-    for (int row = 0; row < 4; ++row) {
-      const cv::Point centre(column * kPitch + kPitch / 4,
-                             row * kPitch + (column % 2 + 1) * kPitch / 4);
-      for (int petal = 0; petal < 6; ++petal) {
-        const double angle = petal * CV_PI / 3.0;
-        const cv::Point at =
-            centre + cv::Point(cvRound(13 * std::cos(angle)), cvRound(13 * std::sin(angle)));
-        cv::ellipse(picture, at, {10, 4}, petal * 60.0, 0, 360, ornament, cv::FILLED, cv::LINE_AA);
-      }
-      cv::circle(picture, centre, 4, stripe, cv::FILLED, cv::LINE_AA);
-    }
+  }
+  for (int i = 0; i < 16; ++i) {
+    const int column = i % 4;
+    const cv::Point centre(column * kPitch + kPitch / 4,
+                           i / 4 * kPitch + (column % 2 + 1) * kPitch / 4);
+    add_flower(picture, centre, paint::scaled(colour, 0.76), stripe);
   }
   paint::shade(picture, 0.05 * paint::fractal(size, square(64), 3, random));
   return picture;

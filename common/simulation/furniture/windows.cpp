@@ -122,6 +122,18 @@ Lamp daylight(const Wall& wall, const Hole& hole) {
   return lamp;
 }
 
+/// One window in the wall's axes; `depth` as depth_through() tells it.
+render::Mesh make_window(const Hole& hole, const std::optional<float>& depth, std::uint64_t seed) {
+  Assembly window;
+  add_lining(window, hole, depth ? 0.5F * *depth : kOutwards);
+  add_frame(window, hole, depth ? -0.5F * *depth + 0.025F : -kOutwards + 0.035F);
+  if (!depth) {
+    Random random(seed_of(seed, "window " + std::to_string(hole.opening)));
+    window.add(make_view(hole, textures::outside(random)));
+  }
+  return window.finished();
+}
+
 }  // namespace
 
 void add_windows(Building& building,
@@ -132,15 +144,8 @@ void add_windows(Building& building,
     for (const Hole& hole : wall.holes) {
       if (hole.is_door) continue;
       const std::optional<float> depth = depth_through(wall, hole, walls);
-      Assembly window;
-      add_lining(window, hole, depth ? 0.5F * *depth : kOutwards);
-      add_frame(window, hole, depth ? -0.5F * *depth + 0.025F : -kOutwards + 0.035F);
-      if (!depth) {
-        Random random(seed_of(seed, "window " + std::to_string(hole.opening)));
-        window.add(make_view(hole, textures::outside(random)));
-        building.lamps.push_back(daylight(wall, hole));
-      }
-      parts.add(window.finished(), wall.T_world_wall);
+      parts.add(make_window(hole, depth, seed), wall.T_world_wall);
+      if (!depth) building.lamps.push_back(daylight(wall, hole));
     }
   }
 }
