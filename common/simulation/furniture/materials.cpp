@@ -42,7 +42,7 @@ Material fabric(const Colour& colour, Random& random) {
 }
 
 Material leather(const Colour& colour, Random& random) {
-  return pictured(textures::leather(colour, random), 0.5, 0.35F);
+  return pictured(textures::leather(colour, random), 0.5, 0.1F);
 }
 
 Material metal(const Colour& colour, Random& random) {
