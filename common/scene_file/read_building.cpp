@@ -12,7 +12,7 @@ using simulation::OpeningDescription;
 using simulation::RoomDescription;
 using simulation::SceneDescription;
 
-constexpr double kWallReach_m = 0.3;  // doors and windows: scene.hpp
+constexpr double kWallReach = 0.3;  // metres; doors and windows: scene.hpp
 
 /// A wall seen from above.
 struct Wall {
@@ -48,7 +48,7 @@ std::string complaint(const OpeningDescription& opening, const SceneDescription&
     for (const Wall& wall : walls_of(room)) {
       const Eigen::Vector2d at = wall.coordinates(opening.position_m);
       const bool is_along = at.x() >= 0.0 && at.x() <= wall.length_m();
-      if (!is_along || at.y() > kWallReach_m) continue;
+      if (!is_along || at.y() > kWallReach) continue;
       const double half_m = 0.5 * opening.width_m;
       if (at.x() >= half_m && at.x() + half_m <= wall.length_m()) return "";
       found = "reaches beyond the end of its wall; move it or make it narrower";

@@ -11,7 +11,7 @@ using simulation::RelocationDescription;
 using simulation::SceneDescription;
 
 constexpr double kRadians = std::numbers::pi / 180.0;
-constexpr double kBeyondWall_m = 0.3;  // posters hang on a wall, things may stick into it a bit
+constexpr double kBeyondWall = 0.3;  // metres; posters hang on a wall, things may stick into it
 constexpr Limits kScale{0.1, 10.0};
 
 void read_scale(MapReader& reader, ObjectDescription& object) {
@@ -36,7 +36,7 @@ void check_place(MapReader& reader,
     }
     return;
   }
-  if (reader.require({"at_m"}) && !is_in_a_room(scene, object.pose.position_m, kBeyondWall_m)) {
+  if (reader.require({"at_m"}) && !is_in_a_room(scene, object.pose.position_m, kBeyondWall)) {
     reader.add_problem("at_m", "is outside all rooms");
   }
 }
@@ -99,7 +99,7 @@ void read_relocations(MapReader& root, SceneContext& context, SceneDescription& 
     reader.finish();
     if (!complete) continue;
     context.names.use_object(relocation.object, reader.line("object"), reader.path("object"));
-    if (!is_in_a_room(scene, relocation.to.position_m, kBeyondWall_m)) {
+    if (!is_in_a_room(scene, relocation.to.position_m, kBeyondWall)) {
       reader.add_problem("to_m", "is outside all rooms");
     }
     scene.relocations.push_back(std::move(relocation));

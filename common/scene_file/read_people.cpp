@@ -14,7 +14,7 @@ using simulation::SceneDescription;
 constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr Limits kSpeed{0.1, 2.5};
 constexpr Limits kDuration{0.1, 86'400.0};
-constexpr double kPushSpeed_mps = 0.6;  // furniture slows one down
+constexpr double kPushSpeed = 0.6;  // m/s; furniture slows one down
 
 const std::vector<std::string> kActions{"walk", "sit", "stand", "push", "pull", "pause"};
 const std::vector<std::string> kGestures{"talk", "wave", "point", "type", "phone", "idle"};
@@ -75,7 +75,7 @@ class ActionReader {
 
   void read_push(MapReader& reader, ActionDescription& action) {
     action.kind = ActionKind::kPush;
-    action.speed_mps = kPushSpeed_mps;
+    action.speed_mps = kPushSpeed;
     reader.require({"object"});
     read_object(reader, "object", action.object);
     read_path(reader, action);

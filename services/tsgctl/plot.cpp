@@ -94,6 +94,30 @@ void write_start(std::ostream& script, const AbsoluteError& error, const Axes& a
   script << "\nEOD\n";
 }
 
+/// The part of both axes that is shown: all poses with a margin, and of the shorter axis no less
+/// than a good part of the longer, lest a straight path becomes a narrow strip.
+void write_ranges(std::ostream& script, const AbsoluteError& error, const Axes& axes) {
+  constexpr double kMargin = 1.1;
+  constexpr double kNarrowest = 0.6;
+  Eigen::Array3d low = error.matched.front().T_world_truth.translation();
+  Eigen::Array3d high = low;
+  for (const MatchedPose& pose : error.matched) {
+    const Eigen::Array3d truth = pose.T_world_truth.translation();
+    const Eigen::Array3d estimate = error.T_world_estimate * pose.T_estimate_camera.translation();
+    low = low.min(truth).min(estimate);
+    high = high.max(truth).max(estimate);
+  }
+  const Eigen::Array3d size = high - low;
+  const double longest = std::max({size[axes.horizontal], size[axes.vertical], 1e-3});
+  const auto write = [&](const char* name, int axis) {
+    const double half = 0.5 * kMargin * std::max(size[axis], kNarrowest * longest);
+    const double middle = 0.5 * (low[axis] + high[axis]);
+    script << "set " << name << " [" << middle - half << ":" << middle + half << "]\n";
+  };
+  write("xrange", axes.horizontal);
+  write("yrange", axes.vertical);
+}
+
 /// Text for a gnuplot string in single quotes.
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -123,7 +147,7 @@ void write_style(std::ostream& script, const TrajectoryPlot& plot, const Axes& a
          << "set cbrange [0:" << top_mm << "]\n"
          << "set palette defined (0 '#2c7bb6', 0.35 '#00a6ca', 0.55 '#90c987', 0.75 '#f9a03f', "
             "1 '#d7191c')\n"
-         << "set size ratio -1\nset offsets graph 0.04, graph 0.04, graph 0.04, graph 0.04\n"
+         << "set size ratio -1\n"
          << "set grid lt 1 lc rgb '#dddddd' lw 1\nset border lc rgb '#606060'\nset tics nomirror\n"
          << "set bmargin at screen 0.15\nset tmargin at screen 0.90\n"
          << "set key at screen 0.5, screen 0.03 center bottom horizontal Left reverse samplen 3\n";
@@ -140,6 +164,7 @@ std::string plot_script(const TrajectoryPlot& plot, const fs::path& png) {
   write_truth(script, covered_truth(plot), axes);
   write_estimate(script, plot.error, axes);
   write_start(script, plot.error, axes);
+  write_ranges(script, plot.error, axes);
   write_style(script, plot, axes);
   script << "plot $truth using 1:2 with lines lw 5 lc rgb '#b8b8b8' title 'ground truth', "
             "$estimate using 1:2:3 with lines lw 2.5 lc palette title 'estimate, aligned', "

@@ -24,16 +24,16 @@ using octomap::ColorOcTree;
 
 constexpr int kWidth = 1200;
 constexpr int kHeight = 900;
-constexpr double kElevation_deg = 38.0;  // of the eye
-constexpr double kDistance = 1.5;        // of the eye, in sizes of the map
-constexpr double kFill = 0.9;            // of the picture
-constexpr double kStrayShare = 0.002;    // of the points, that may fall out of it at each edge
-constexpr int kDirections = 12;          // round the map, tried for the best view
-constexpr float kBackground = 0.93F;     // light grey
+constexpr double kElevation = 38.0;    // degrees, of the eye
+constexpr double kDistance = 1.5;      // of the eye, in sizes of the map
+constexpr double kFill = 0.9;          // of the picture
+constexpr double kStrayShare = 0.002;  // of the points, that may fall out of it at each edge
+constexpr int kDirections = 12;        // round the map, tried for the best view
+constexpr float kBackground = 0.93F;   // light grey
 
 /// An eye in that direction, far enough for walls to look nearly parallel.
 Eigen::Vector3d eye_towards(const MapExtent& extent, double azimuth_rad) {
-  const double elevation_rad = kElevation_deg * std::numbers::pi / 180.0;
+  const double elevation_rad = kElevation * std::numbers::pi / 180.0;
   const Eigen::Vector3d direction(std::cos(elevation_rad) * std::cos(azimuth_rad),
                                   std::cos(elevation_rad) * std::sin(azimuth_rad),
                                   std::sin(elevation_rad));

@@ -16,18 +16,18 @@ using octomap::ColorOcTree;
 using test::TempFolder;
 using ::testing::HasSubstr;
 
-constexpr double kResolution_m = 0.1;
+constexpr double kResolution = 0.1;  // metres
 
 /// The middle of a leaf.
 octomap::point3d leaf_at(int x, int y, int z) {
-  const auto middle = [](int i) { return static_cast<float>((i + 0.5) * kResolution_m); };
+  const auto middle = [](int i) { return static_cast<float>((i + 0.5) * kResolution); };
   return {middle(x), middle(y), middle(z)};
 }
 
 /// A red block of 2 x 1 leaves that stands in free space.
 class Block : public ::testing::Test {
  protected:
-  Block() : tree_(kResolution_m) {
+  Block() : tree_(kResolution) {
     for (int x = -3; x <= 4; ++x) {
       for (int y = -3; y <= 3; ++y) {
         for (int z = -3; z <= 3; ++z) tree_.updateNode(leaf_at(x, y, z), false);
@@ -64,7 +64,7 @@ TEST_F(Block, HasItsColourInLinearLight) {
 }
 
 TEST_F(Block, IsNotSeenWhereTheSpaceBesideItIsUnknown) {
-  ColorOcTree wall(kResolution_m);
+  ColorOcTree wall(kResolution);
   wall.updateNode(leaf_at(0, 0, 0), true);
   wall.updateNode(leaf_at(-1, 0, 0), false);  // seen from -x only
   EXPECT_TRUE(make_map_mesh(wall, {5.0, 0.05, 0.05}).triangles.empty());
@@ -72,7 +72,7 @@ TEST_F(Block, IsNotSeenWhereTheSpaceBesideItIsUnknown) {
 }
 
 TEST_F(Block, MeasuresWhatAnEyeSees) {
-  const double tops_m2 = 2.0 * kResolution_m * kResolution_m;
+  const double tops_m2 = 2.0 * kResolution * kResolution;
   EXPECT_NEAR(visible_area_m2(tree_, {0.1, 0.05, 1000.0}), tops_m2, 1e-4 * tops_m2);
 }
 
@@ -108,7 +108,7 @@ TEST(MapPicture, OfAMapThatIsAbsentEmptyOrNoneSaysSo) {
     EXPECT_THAT(broken.error().message, HasSubstr("map.ot"));
   }
 
-  ASSERT_TRUE(ColorOcTree(kResolution_m).write((folder / "map.ot").string()));
+  ASSERT_TRUE(ColorOcTree(kResolution).write((folder / "map.ot").string()));
   const auto empty = draw_map(folder / "map.ot", folder / "map.png");
   ASSERT_FALSE(empty);
   EXPECT_EQ(empty.error().code, ExitCode::kEmptyInput);
