@@ -43,7 +43,7 @@ struct Gait::Swing {
 };
 
 Gait::Gait(const Skeleton& skeleton, const Route& route, double speed_mps, bool rolls)
-    : steps_(1), step_m_(0.0), first_(Side::kRight), rolls_(rolls), stride_(0.0) {
+    : rolls_(rolls) {
   const double natural_m = std::clamp(kBriskStepM * std::sqrt(speed_mps / kBriskSpeed), 0.3, 0.8) *
                            (rolls ? 1.0 : 0.75) * skeleton.scale;
   steps_ = std::max(1, static_cast<int>(std::lround(route.length_m() / natural_m)));

@@ -29,11 +29,11 @@ class Gait {
   [[nodiscard]] double landing_m(int step) const;
   [[nodiscard]] double rhythm(double phase) const;
 
-  int steps_;
-  double step_m_;
-  Side first_;
+  int steps_ = 1;
+  double step_m_ = 0.0;
+  Side first_ = Side::kRight;
   bool rolls_;
-  double stride_;  ///< length of its steps relative to a brisk walk's
+  double stride_ = 0.0;  ///< length of its steps relative to a brisk walk's
 };
 
 }  // namespace tsg::simulation

@@ -37,17 +37,18 @@ Skin arm_skin(Side side, float down) {
   return around_joint(upper, index_of(side, LimbBone::kLowerArm), down - kUpperArmLength, 0.05F);
 }
 
-std::vector<Station> refined_stations(const std::vector<Station>& stations, int times) {
+Station between(const Station& a, const Station& b, float share) {
+  const auto mix = [share](float from, float to) { return from + (to - from) * share; };
+  return {mix(a.down, b.down), mix(a.half_width, b.half_width), mix(a.front, b.front),
+          mix(a.back, b.back)};
+}
+
+/// The stations and one half-way between any two.
+std::vector<Station> with_halves(const std::vector<Station>& stations) {
   std::vector<Station> result;
   for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
-    const Station& a = stations[i];
-    const Station& b = stations[i + 1];
-    for (int k = 0; k < times; ++k) {
-      const float u = static_cast<float>(k) / static_cast<float>(times);
-      const auto mix = [u](float from, float to) { return from + (to - from) * u; };
-      result.push_back({mix(a.down, b.down), mix(a.half_width, b.half_width), mix(a.front, b.front),
-                        mix(a.back, b.back)});
-    }
+    result.push_back(stations[i]);
+    result.push_back(between(stations[i], stations[i + 1], 0.5F));
   }
   result.push_back(stations.back());
   return result;
@@ -105,7 +106,7 @@ void add_leg(const Skeleton& skeleton, const Look& look, Side side, SkinnedMesh&
   const auto girth = scale * static_cast<float>(look.girth);
   const Eigen::Vector3f hip = skeleton.joint(side, LimbBone::kThigh).cast<float>();
   std::vector<Ring> rings;
-  for (const Station& station : refined_stations(leg_stations(look.bottom == Bottom::kSkirt), 2)) {
+  for (const Station& station : with_halves(leg_stations(look.bottom == Bottom::kSkirt))) {
     rings.push_back({hip - scale * Eigen::Vector3f(0.0F, 0.0F, station.down),
                      girth * station.half_width, girth * station.front, girth * station.back,
                      leg_skin(side, station.down), 2.1F});
@@ -126,7 +127,7 @@ void add_arm(const Skeleton& skeleton, const Look& look, Side side, SkinnedMesh&
   const Eigen::Vector3f inwards = static_cast<float>(-sign_of(side)) * left;
   const auto add = [&](bool is_bare, BodyMaterial material) {
     std::vector<Ring> rings;
-    for (const Station& station : refined_stations(arm_stations(look, is_bare), 2)) {
+    for (const Station& station : with_halves(arm_stations(look, is_bare))) {
       // The end in the shoulder bends inwards, which makes it round.
       const float above = std::max(0.0F, 0.05F - station.down);
       const Eigen::Vector3f centre =

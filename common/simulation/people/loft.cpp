@@ -84,6 +84,7 @@ Skin mixed_skin(const Skin& a, const Skin& b, float share) {
     weights[b.bones.at(i)] += share * b.weights.at(i);
   }
   std::vector<std::pair<float, std::uint8_t>> by_weight;
+  by_weight.reserve(weights.size());
   for (const auto& [bone, weight] : weights) by_weight.emplace_back(-weight, bone);
   std::sort(by_weight.begin(), by_weight.end());
   Skin skin;

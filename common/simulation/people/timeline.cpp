@@ -62,6 +62,12 @@ void sit_down(const Sitting& sitting, double progress, Posture& posture) {
   posture.head_rpy.y() -= 0.25 * lean;
 }
 
+FloorPose place_in(const Segment& segment, double time_s) {
+  if (!segment.motion) return segment.place;
+  const Motion& motion = *segment.motion;
+  return motion.route.person_at(motion.profile.along_m(time_s - segment.begin_s));
+}
+
 }  // namespace
 
 double hips_above_seat_m(const Skeleton& skeleton) { return 0.125 * skeleton.scale; }
@@ -76,12 +82,6 @@ std::size_t Timeline::segment_at(double time_s) const {
       std::upper_bound(segments_.begin(), segments_.end(), time_s,
                        [](double time, const Segment& segment) { return time < segment.begin_s; });
   return next == segments_.begin() ? 0 : static_cast<std::size_t>(next - segments_.begin()) - 1;
-}
-
-FloorPose Timeline::place_in(const Segment& segment, double time_s) const {
-  if (!segment.motion) return segment.place;
-  const Motion& motion = *segment.motion;
-  return motion.route.person_at(motion.profile.along_m(time_s - segment.begin_s));
 }
 
 FloorPose Timeline::place_at(double time_s) const {
@@ -120,7 +120,7 @@ Posture Timeline::posture_in(const Segment& segment, double time_s) const {
 Posture Timeline::posture_at(double time_s) const {
   const std::size_t i = segment_at(time_s);
   const Segment& segment = segments_[i];
-  const Posture posture = posture_in(segment, time_s);
+  Posture posture = posture_in(segment, time_s);
   const double share = (time_s - segment.begin_s) / segment.fade_s;
   if (i == 0 || share >= 1.0) return posture;
   return blended(posture_in(segments_[i - 1], time_s), posture, eased(share));

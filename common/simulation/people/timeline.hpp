@@ -79,7 +79,6 @@ class Timeline {
 
  private:
   [[nodiscard]] std::size_t segment_at(double time_s) const;
-  [[nodiscard]] FloorPose place_in(const Segment& segment, double time_s) const;
   [[nodiscard]] Posture posture_in(const Segment& segment, double time_s) const;
 
   Skeleton skeleton_;
