@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 #include <string>
 
 #include "services/tsgctl/eval_command.hpp"
@@ -150,6 +151,29 @@ TEST(PlotScript, DrawsTheTwoAxesOfLargestExtent) {
   EXPECT_THAT(script, HasSubstr("set ylabel 'z [m]'"));
   EXPECT_THAT(script, HasSubstr("set size ratio -1"));
   EXPECT_THAT(script, HasSubstr("'it''s a room'"));
+}
+
+/// The size of a range that a script sets, e.g. "xrange [1:3]".
+double size_of(const std::string& range, const std::string& script) {
+  std::istringstream text(script.substr(script.find("set " + range + " [") + range.size() + 6));
+  double low = 0.0;
+  double high = 0.0;
+  char colon = 0;
+  text >> low >> colon >> high;
+  return high - low;
+}
+
+TEST(PlotScript, GivesAStraightPathMoreThanAStrip) {
+  Trajectory straight;
+  for (int i = 0; i < 60; ++i) {
+    straight.push_back(
+        {i * 33'000'000LL, SE3(Eigen::Quaterniond::Identity(), {0.01 * i, 0.0, 0.0})});
+  }
+  const auto error = absolute_error(straight, straight);
+  ASSERT_TRUE(error);
+  const std::string script = plot_script({"", straight, *error}, "a.png");
+  EXPECT_GE(size_of("xrange", script), 0.59);
+  EXPECT_GE(size_of("yrange", script), 0.5 * size_of("xrange", script));
 }
 
 TEST(PlotScript, BreaksTheLineWhereTrackingWasLost) {

@@ -28,7 +28,7 @@ Expected<void> apply_noise(const std::string& noise, SensorDescription& sensor) 
   if (noise == "all" || noise == "none") return {};
   std::istringstream names(noise);
   for (std::string name; std::getline(names, name, ',');) {
-    const auto found =
+    const auto* const found =
         std::ranges::find_if(kParts, [&](const auto& part) { return name == part.first; });
     if (found == kParts.end()) {
       std::string known;
