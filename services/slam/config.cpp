@@ -44,6 +44,16 @@ void read_mapper(ConfigReader& reader, MapperConfig& config) {
   reader.read("mapper.redundant_share", config.redundant_share);
 }
 
+void read_loop(ConfigReader& reader, LoopConfig& config) {
+  reader.read("loop.enabled", config.enabled);
+  reader.read("loop.max_keyframes", config.max_keyframes);
+  reader.read("loop.min_inliers", config.min_inliers);
+  reader.read("loop.min_cells", config.min_cells);
+  reader.read("loop.max_contradiction", config.max_contradiction);
+  reader.read("loop.confirmations", config.confirmations);
+  reader.read("loop.max_drift_share", config.max_drift_share);
+}
+
 }  // namespace
 
 std::vector<std::string> SlamNodeConfig::problems() const {
@@ -68,6 +78,7 @@ SlamNodeConfig load_slam_config(const ConfigFile& file) {
   read_dynamic_filter(reader, config.core.dynamic_filter);
   read_tracker(reader, config.core.tracker);
   read_mapper(reader, config.core.mapper);
+  read_loop(reader, config.core.loop);
   reader.finish(config.problems());
   return config;
 }

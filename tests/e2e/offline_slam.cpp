@@ -56,6 +56,7 @@ void map_frame(LocalMapper& mapper, TrackResult& result, const InstanceSegmentat
   if (!result.keyframe) return;
   mapper.insert(std::move(*result.keyframe));
   mapper.refine({});
+  while (mapper.is_adjusting()) mapper.adjust({});
 }
 
 }  // namespace
@@ -89,6 +90,7 @@ OfflineRun run_offline(const std::filesystem::path& folder, const OfflineOptions
   run.corrected = recorder.corrected(run.keyframes);
   run.map_keyframes = mapper.snapshot()->map_keyframes;
   run.map_points = mapper.snapshot()->map_points;
+  run.map_corrections = mapper.snapshot()->corrections;
   return run;
 }
 

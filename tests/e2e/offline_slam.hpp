@@ -28,7 +28,8 @@ struct OfflineRun {
   std::vector<std::string> failures;  ///< frame and reason of each frame without a pose
   std::size_t map_keyframes = 0;
   std::size_t map_points = 0;
-  std::vector<double> extract_ms;  ///< wall-clock, one per frame
+  std::uint64_t map_corrections = 0;  ///< by loops
+  std::vector<double> extract_ms;     ///< wall-clock, one per frame
   std::vector<double> track_ms;
   std::vector<double> mapping_ms;  ///< one per keyframe
 };

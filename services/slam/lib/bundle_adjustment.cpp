@@ -6,27 +6,18 @@
 #include <memory>
 
 #include "services/slam/lib/reprojection_cost.hpp"
+#include "services/slam/lib/solver_stop.hpp"
 
 namespace tsg {
 namespace {
 
 constexpr double kHuber = 2.5;               // standard deviations in three dimensions
+constexpr std::size_t kManyCameras = 100;    // from here on most pairs see nothing in common
 constexpr double kFunctionTolerance = 1e-4;  // relative; further down is below the noise
 
-class StopCallback final : public ceres::IterationCallback {
- public:
-  explicit StopCallback(const std::function<bool()>& must_stop) : must_stop_(must_stop) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
-    return must_stop_() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
-  }
-
- private:
-  const std::function<bool()>& must_stop_;
-};
-
-ceres::Solver::Options make_options(const BundleLimits& limits) {
+ceres::Solver::Options make_options(const BundleLimits& limits, std::size_t cameras) {
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.linear_solver_type = cameras < kManyCameras ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
   options.num_threads = 1;  // more would sum in another order from run to run
   options.max_num_iterations = limits.max_iterations;
   options.function_tolerance = kFunctionTolerance;
@@ -69,11 +60,11 @@ BundleSummary adjust_bundle(const ObservationModel& model,
   if (problem.sightings.empty()) return {};
   std::vector<PoseBlock> poses;
   ceres::Problem solver_problem;
-  ceres::Solver::Options options = make_options(limits);
+  ceres::Solver::Options options = make_options(limits, problem.cameras.size());
   options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   build(model, problem, poses, solver_problem, *options.linear_solver_ordering);
-  StopCallback stop_callback(limits.must_stop);
-  if (limits.must_stop) options.callbacks.push_back(&stop_callback);
+  SolverStop stop(limits.must_stop);
+  options.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &solver_problem, &summary);
   if (!summary.IsSolutionUsable()) return {};

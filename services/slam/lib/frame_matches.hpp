@@ -29,6 +29,7 @@ class FrameMatches {
   /// The matches in the form that solvers want.
   [[nodiscard]] std::vector<PointMatch> to_point_matches(const ObservationModel& model) const;
 
+  [[nodiscard]] const Features& features() const { return *features_; }
   [[nodiscard]] int count() const;
   [[nodiscard]] int mapped() const;                   ///< matches to points of the map
   [[nodiscard]] std::vector<bool> taken() const;      ///< per feature

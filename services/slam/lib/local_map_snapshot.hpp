@@ -33,9 +33,10 @@ struct SnapshotKeyframe {
 /// The part of the map around the newest keyframe as it was at one moment. Never changes, bounded
 /// by MapperConfig, may be kept and read by any thread.
 struct LocalMapSnapshot {
-  std::uint64_t version = 0;                ///< counts up with every change of the map
-  KeyframeId newest = 0;                    ///< keyframe that was inserted last
-  std::vector<SnapshotPoint> points;        ///< sorted by id
+  std::uint64_t version = 0;          ///< counts up with every change of the map
+  std::uint64_t corrections = 0;      ///< how often all of the map was moved, as a loop was closed
+  KeyframeId newest = 0;              ///< keyframe that was inserted last
+  std::vector<SnapshotPoint> points;  ///< sorted by id
   std::vector<SnapshotKeyframe> keyframes;  ///< sorted by id; empty before the first
   std::size_t map_keyframes = 0;            ///< in the whole map
   std::size_t map_points = 0;

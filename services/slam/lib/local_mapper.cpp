@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "common/core/check.hpp"
+#include "services/slam/lib/depth_points.hpp"
 #include "services/slam/lib/dynamic_classes.hpp"
 #include "services/slam/lib/local_window.hpp"
+#include "services/slam/lib/loop_closer.hpp"
 #include "services/slam/lib/map.hpp"
 #include "services/slam/lib/map_culling.hpp"
 #include "services/slam/lib/point_fusion.hpp"
@@ -28,10 +30,9 @@ struct CulledKeyframe {
 
 struct LocalMapper::Impl {
   Impl(const SlamConfig& slam_config, const CameraModel& camera)
-      : config(slam_config), model(camera, slam_config) {}
+      : config(slam_config), model(camera, slam_config), closer(model, config) {}
 
   void link_tracked_points(const KeyframeCandidate& candidate, Keyframe& keyframe);
-  void add_points_from_depth(Keyframe& keyframe);
   void note_sightings(const std::vector<PointSighting>& sightings);
   void cull_keyframe(KeyframeId id);
   [[nodiscard]] SE3 pose_of(KeyframeId id) const;
@@ -39,10 +40,12 @@ struct LocalMapper::Impl {
   SlamConfig config;
   ObservationModel model;
   Map map;
+  LoopCloser closer;
   KeyframeId newest = 0;
   std::vector<PointId> recent_points;  ///< on trial, see cull_recent_points()
   std::map<KeyframeId, CulledKeyframe> culled;
   std::uint64_t version = 0;
+  std::uint64_t corrections = 0;
   std::shared_ptr<const LocalMapSnapshot> published;  ///< null where the map has changed since
 };
 
@@ -54,19 +57,6 @@ void LocalMapper::Impl::link_tracked_points(const KeyframeCandidate& candidate,
     if (point != nullptr && Map::add_observation(*point, keyframe, static_cast<int>(i))) {
       map.update_appearance(*point, model);
     }
-  }
-}
-
-void LocalMapper::Impl::add_points_from_depth(Keyframe& keyframe) {
-  for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
-    const Feature& feature = keyframe.features->items[i];
-    if (keyframe.points[i] != kNoPoint || !feature.has_depth()) continue;
-    const Eigen::Vector3d p_camera =
-        model.camera().unproject(feature.pixel.cast<double>(), 1.0 / feature.inverse_depth);
-    const PointId id =
-        map.add_point(keyframe.T_world_camera * p_camera, keyframe, static_cast<int>(i));
-    map.update_appearance(*map.find_point(id), model);
-    recent_points.push_back(id);
   }
 }
 
@@ -88,6 +78,7 @@ void LocalMapper::Impl::cull_keyframe(KeyframeId id) {
       .T_parent_camera = map.keyframe(parent).T_world_camera.inverse() * keyframe.T_world_camera,
       .seq = keyframe.features->seq,
       .stamp_ns = keyframe.features->stamp_ns};
+  closer.remove(id, parent, culled[id].T_parent_camera);
   map.remove_keyframe(id);
 }
 
@@ -121,9 +112,11 @@ void LocalMapper::insert(KeyframeCandidate&& candidate) {
   impl_->newest = candidate.id;
   impl_->note_sightings(candidate.sightings);
   impl_->link_tracked_points(candidate, keyframe);
-  impl_->add_points_from_depth(keyframe);
+  const std::vector<PointId> added = add_points_from_depth(impl_->map, impl_->model, keyframe);
+  impl_->recent_points.insert(impl_->recent_points.end(), added.begin(), added.end());
   fuse_with_neighbours(impl_->map, impl_->model, impl_->config.mapper, candidate.id);
   cull_recent_points(impl_->map, impl_->newest, impl_->recent_points);
+  impl_->closer.add(keyframe);
 }
 
 void LocalMapper::refine(const std::stop_token& stop) {
@@ -142,6 +135,15 @@ void LocalMapper::refine(const std::stop_token& stop) {
     if (!redundant) break;
     impl_->cull_keyframe(*redundant);
   }
+  if (impl_->closer.close(impl_->map, impl_->newest, limits.must_stop)) ++impl_->corrections;
+}
+
+bool LocalMapper::is_adjusting() const { return impl_->closer.is_adjusting(); }
+
+void LocalMapper::adjust(const std::function<bool()>& must_stop) {
+  if (!impl_->closer.adjust(impl_->map, must_stop)) return;
+  impl_->published.reset();
+  ++impl_->corrections;
 }
 
 void LocalMapper::remove_points(const std::vector<PointId>& points) {
@@ -178,6 +180,7 @@ std::shared_ptr<const LocalMapSnapshot> LocalMapper::snapshot() {
     snapshot = build_snapshot(impl_->map, impl_->config.mapper, impl_->newest);
   }
   snapshot.version = ++impl_->version;
+  snapshot.corrections = impl_->corrections;
   impl_->published = std::make_shared<const LocalMapSnapshot>(std::move(snapshot));
   return impl_->published;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <stop_token>
 #include <vector>
@@ -36,8 +37,15 @@ class LocalMapper {
   void insert(KeyframeCandidate&& candidate);
 
   /// Local bundle adjustment around the newest keyframe, then removal of what proved bad or
-  /// redundant. Returns early, with a valid map, once `stop` is requested.
+  /// redundant; where the keyframe closes a loop, the whole map is corrected. Returns early, with a
+  /// valid map, once `stop` is requested.
   void refine(const std::stop_token& stop);
+
+  /// After a loop: whether the full adjustment of the map is not done yet.
+  [[nodiscard]] bool is_adjusting() const;
+  /// Goes on with it until it is done or `must_stop` (asked after each iteration; may be empty)
+  /// says so. Keyframes may be inserted between two calls.
+  void adjust(const std::function<bool()>& must_stop);
 
   /// Takes map points out, and with them their observations; unknown ids are ignored.
   void remove_points(const std::vector<PointId>& points);

@@ -27,14 +27,22 @@ void join(Map& map, PointId id, Keyframe& keyframe, int feature) {
   map.merge_points(keep_shown ? id : shown, keep_shown ? shown : id);
 }
 
-/// Looks for `points` in `keyframe`.
-void fuse_into(Map& map,
-               const ObservationModel& model,
-               const std::vector<PointId>& points,
-               KeyframeId keyframe_id) {
+std::vector<PointId> points_of(const Keyframe& keyframe) {
+  std::vector<PointId> points = keyframe.points;
+  std::erase(points, kNoPoint);
+  return points;
+}
+
+}  // namespace
+
+void fuse_points_into(Map& map,
+                      const ObservationModel& model,
+                      const std::vector<PointId>& points,
+                      KeyframeId keyframe_id,
+                      double radius) {
   Keyframe& keyframe = *map.find_keyframe(keyframe_id);
   const ProjectionSearch search{.T_camera_world = keyframe.T_world_camera.inverse(),
-                                .radius = kSearchRadius,
+                                .radius = radius,
                                 .depth_gate_sigmas = kDepthGateSigmas};
   std::vector<MatchTarget> targets;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -43,12 +51,7 @@ void fuse_into(Map& map,
     const bool seen = std::any_of(point->observations.begin(), point->observations.end(),
                                   [&](const Observation& o) { return o.keyframe == keyframe_id; });
     if (seen) continue;
-    const PointAppearance appearance{.position = point->position,
-                                     .normal = point->normal,
-                                     .min_distance = point->min_distance,
-                                     .max_distance = point->max_distance,
-                                     .descriptor = &point->descriptor};
-    if (auto target = project_point(model, search, appearance)) {
+    if (auto target = project_point(model, search, appearance_of(*point))) {
       target->source = static_cast<int>(i);
       targets.push_back(*target);
     }
@@ -62,14 +65,6 @@ void fuse_into(Map& map,
   }
 }
 
-std::vector<PointId> points_of(const Keyframe& keyframe) {
-  std::vector<PointId> points = keyframe.points;
-  std::erase(points, kNoPoint);
-  return points;
-}
-
-}  // namespace
-
 void fuse_with_neighbours(Map& map,
                           const ObservationModel& model,
                           const MapperConfig& config,
@@ -81,7 +76,7 @@ void fuse_with_neighbours(Map& map,
     neighbours.push_back(neighbour.keyframe);
   }
   for (const KeyframeId neighbour : neighbours) {
-    fuse_into(map, model, points_of(map.keyframe(newest)), neighbour);
+    fuse_points_into(map, model, points_of(map.keyframe(newest)), neighbour, kSearchRadius);
   }
   std::vector<PointId> theirs;
   std::unordered_set<PointId> known;
@@ -90,7 +85,7 @@ void fuse_with_neighbours(Map& map,
       if (known.insert(id).second) theirs.push_back(id);
     }
   }
-  fuse_into(map, model, theirs, newest);
+  fuse_points_into(map, model, theirs, newest, kSearchRadius);
   for (const PointId id : points_of(map.keyframe(newest))) {
     map.update_appearance(*map.find_point(id), model);
   }

@@ -11,6 +11,14 @@ constexpr double kMinViewCosine = 0.5;  // 60 degrees: further round a patch loo
 
 }  // namespace
 
+PointAppearance appearance_of(const MapPoint& point) {
+  return {.position = point.position,
+          .normal = point.normal,
+          .min_distance = point.min_distance,
+          .max_distance = point.max_distance,
+          .descriptor = &point.descriptor};
+}
+
 std::optional<MatchTarget> project_point(const ObservationModel& model,
                                          const ProjectionSearch& search,
                                          const PointAppearance& point) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "services/slam/lib/feature_matcher.hpp"
+#include "services/slam/lib/map.hpp"
 #include "services/slam/lib/observation_model.hpp"
 
 namespace tsg {
@@ -23,6 +24,8 @@ struct PointAppearance {
   double max_distance = 0.0;
   const Descriptor* descriptor = nullptr;
 };
+
+[[nodiscard]] PointAppearance appearance_of(const MapPoint& point);
 
 /// The target to search for; nothing where the point is outside of the image, or nearer, farther
 /// or more from the side than its descriptor allows for.

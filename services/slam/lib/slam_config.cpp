@@ -88,12 +88,26 @@ std::vector<std::string> MapperConfig::problems() const {
   return found;
 }
 
+std::vector<std::string> LoopConfig::problems() const {
+  std::vector<std::string> found;
+  require(max_keyframes >= 1 && max_keyframes <= 65535, "max_keyframes must be 1..65535", found);
+  require(min_inliers >= 12, "min_inliers must be >= 12", found);
+  require(min_cells >= 1 && min_cells <= 16, "min_cells must be 1..16", found);
+  require(max_contradiction >= 0.0 && max_contradiction < 1.0,
+          "max_contradiction must be in [0, 1)", found);
+  require(confirmations >= 1, "confirmations must be >= 1", found);
+  require(max_drift_share > 0.0 && std::isfinite(max_drift_share), "max_drift_share must be > 0",
+          found);
+  return found;
+}
+
 std::vector<std::string> SlamConfig::problems() const {
   std::vector<std::string> found;
   append("features", features.problems(), found);
   append("dynamic_filter", dynamic_filter.problems(), found);
   append("tracker", tracker.problems(), found);
   append("mapper", mapper.problems(), found);
+  append("loop", loop.problems(), found);
   return found;
 }
 

@@ -62,11 +62,25 @@ struct MapperConfig {
   [[nodiscard]] std::vector<std::string> problems() const;
 };
 
+/// When a place counts as seen before. All of it errs on the side of no loop.
+struct LoopConfig {
+  bool enabled = true;
+  int max_keyframes = 2000;         // that can be recognised; bounds memory: about 50 kB each
+  int min_inliers = 50;             // of a keyframe's features on the points of the place
+  int min_cells = 6;                // of 16 in the image that hold one: a poster alone has fewer
+  double max_contradiction = 0.12;  // share of depth that is seen through what should be there
+  int confirmations = 3;            // keyframes that must tell the same correction
+  double max_drift_share = 0.05;    // metres, or radians, that a metre of the path may drift
+
+  [[nodiscard]] std::vector<std::string> problems() const;
+};
+
 struct SlamConfig {
   FeatureConfig features;
   DynamicFilterConfig dynamic_filter;
   TrackerConfig tracker;
   MapperConfig mapper;
+  LoopConfig loop;
 
   /// What makes it unusable, a sentence each with the key's name; empty where it is sound.
   [[nodiscard]] std::vector<std::string> problems() const;

@@ -1,0 +1,78 @@
+#include "services/slam/lib/full_adjustment.hpp"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "services/slam/lib/map_motion.hpp"
+
+namespace tsg {
+namespace {
+
+constexpr int kMaxIterations = 20;
+constexpr double kMinDepth = 0.1;  // metres; a point that near or behind is a wrong sighting
+// A point that one keyframe sees says nothing of poses; it moves along with its keyframe.
+constexpr std::size_t kMinObservations = 2;
+
+}  // namespace
+
+FullAdjustment::FullAdjustment(const Map& map, const ObservationModel& model)
+    : iterations_left_(kMaxIterations) {
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    problem_.cameras.push_back({keyframe.T_world_camera.inverse(), keyframes_.empty()});
+    keyframes_.push_back(id);
+  }
+  std::unordered_set<PointId> known = {kNoPoint};
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    for (const PointId point : keyframe.points) {
+      if (known.insert(point).second) add_point(map, model, *map.find_point(point));
+    }
+  }
+}
+
+void FullAdjustment::add_point(const Map& map,
+                               const ObservationModel& model,
+                               const MapPoint& point) {
+  if (point.observations.size() < kMinObservations) return;
+  points_.push_back(point.id);
+  problem_.points.push_back(point.position);
+  for (const Observation& observation : point.observations) {
+    const auto camera = static_cast<std::size_t>(
+        std::lower_bound(keyframes_.begin(), keyframes_.end(), observation.keyframe) -
+        keyframes_.begin());
+    if ((problem_.cameras[camera].T_camera_world * point.position).z() < kMinDepth) continue;
+    const Features& features = *map.keyframe(observation.keyframe).features;
+    const Feature& feature = features.items[static_cast<std::size_t>(observation.feature)];
+    problem_.sightings.push_back({camera, points_.size() - 1, model.observe(feature)});
+  }
+}
+
+void FullAdjustment::advance(const ObservationModel& model,
+                             const std::function<bool()>& must_stop) {
+  bool stopped = false;
+  const BundleSummary summary = adjust_bundle(model,
+                                              {.max_iterations = iterations_left_,
+                                               .must_stop =
+                                                   [&] {
+                                                     stopped = must_stop && must_stop();
+                                                     return stopped;
+                                                   }},
+                                              problem_);
+  iterations_left_ -= std::max(summary.iterations, 1);
+  if (!stopped) iterations_left_ = 0;
+}
+
+void FullAdjustment::write_back(Map& map, const ObservationModel& model) const {
+  KeyframeTargets targets;
+  for (std::size_t i = 0; i < keyframes_.size(); ++i) {
+    targets[keyframes_[i]] = problem_.cameras[i].T_camera_world.inverse();
+  }
+  move_map(map, model, targets);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    MapPoint* point = map.find_point(points_[i]);
+    if (point == nullptr) continue;
+    point->position = problem_.points[i];
+    map.update_appearance(*point, model);
+  }
+}
+
+}  // namespace tsg

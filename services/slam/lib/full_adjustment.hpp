@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "services/slam/lib/bundle_adjustment.hpp"
+#include "services/slam/lib/map.hpp"
+
+namespace tsg {
+
+/// Bundle adjustment of the whole map, which takes longer than mapping may pause: works on a copy,
+/// in as many slices as it takes, while the map goes on growing. The first keyframe stays.
+class FullAdjustment {
+ public:
+  FullAdjustment(const Map& map, const ObservationModel& model);
+
+  /// Works until `must_stop` (may be empty) says so after some iteration, or to the end.
+  void advance(const ObservationModel& model, const std::function<bool()>& must_stop);
+  [[nodiscard]] bool is_done() const { return iterations_left_ <= 0; }
+
+  /// Puts the outcome into the map, which may have changed: what has come since moves along.
+  void write_back(Map& map, const ObservationModel& model) const;
+
+ private:
+  void add_point(const Map& map, const ObservationModel& model, const MapPoint& point);
+
+  std::vector<KeyframeId> keyframes_;  ///< per camera of the problem
+  std::vector<PointId> points_;        ///< per point of the problem
+  BundleProblem problem_;
+  int iterations_left_;
+};
+
+}  // namespace tsg

@@ -1,0 +1,56 @@
+#include "services/slam/lib/loop_closer.hpp"
+
+namespace tsg {
+namespace {
+
+constexpr int kMinMatchesToRecall = 10;  // relocalisation asks for more
+
+}  // namespace
+
+LoopCloser::LoopCloser(const ObservationModel& model, const SlamConfig& config)
+    : model_(model),
+      config_(config),
+      index_(static_cast<std::size_t>(config.loop.max_keyframes)),
+      detector_(model, config) {}
+
+void LoopCloser::add(const Keyframe& keyframe) { index_.add(keyframe.id, keyframe.features); }
+
+void LoopCloser::remove(KeyframeId id, KeyframeId parent, const SE3& T_parent_camera) {
+  index_.remove(id);
+  for (LoopEdge& loop : loops_) {
+    if (loop.a == id) loop = {parent, loop.b, T_parent_camera * loop.T_a_b};
+    if (loop.b == id) loop = {loop.a, parent, loop.T_a_b * T_parent_camera.inverse()};
+  }
+  std::erase_if(loops_, [](const LoopEdge& loop) { return loop.a == loop.b; });
+}
+
+bool LoopCloser::close(Map& map, KeyframeId newest, const std::function<bool()>& must_stop) {
+  if (!config_.loop.enabled) return false;
+  const auto loop = detector_.detect(map, index_, newest);
+  if (!loop) return false;
+  loops_.push_back({loop->seen_before, loop->newest, loop->T_before_newest});
+  if (!correct_map(map, model_, loops_, must_stop)) {
+    loops_.pop_back();
+    return false;
+  }
+  join_sides(map, model_, config_.mapper, loop->seen_before, loop->newest);
+  detector_.reset();
+  adjustment_.emplace(map, model_);
+  return true;
+}
+
+bool LoopCloser::adjust(Map& map, const std::function<bool()>& must_stop) {
+  if (!adjustment_) return false;
+  adjustment_->advance(model_, must_stop);
+  if (!adjustment_->is_done()) return false;
+  adjustment_->write_back(map, model_);
+  adjustment_.reset();
+  detector_.reset();
+  return true;
+}
+
+std::vector<PlaceCandidate> LoopCloser::recall(const Features& features) const {
+  return index_.query(features, {}, kMinMatchesToRecall);
+}
+
+}  // namespace tsg

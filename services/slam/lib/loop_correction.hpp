@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "services/slam/lib/map.hpp"
+#include "services/slam/lib/pose_graph.hpp"
+#include "services/slam/lib/slam_config.hpp"
+
+namespace tsg {
+
+/// What a closed loop says of two keyframes.
+struct LoopEdge {
+  KeyframeId a = 0;
+  KeyframeId b = 0;
+  SE3 T_a_b;
+};
+
+/// The essential graph: all keyframes in the order of their ids, the first one fixed; each joined
+/// with the one before, with those that share many points with it, and by `loops`.
+[[nodiscard]] PoseGraph build_essential_graph(const Map& map, const std::vector<LoopEdge>& loops);
+
+/// Relaxes the essential graph and moves the map accordingly. False, and the map as it was, where
+/// that failed or was stopped.
+[[nodiscard]] bool correct_map(Map& map,
+                               const ObservationModel& model,
+                               const std::vector<LoopEdge>& loops,
+                               const std::function<bool()>& must_stop);
+
+/// Makes one of what two sides of a loop saw twice: looks for the points around `before` in the
+/// keyframes around `newest`. Their covisibility joins by that.
+void join_sides(Map& map,
+                const ObservationModel& model,
+                const MapperConfig& config,
+                KeyframeId before,
+                KeyframeId newest);
+
+}  // namespace tsg
