@@ -6,7 +6,7 @@
 namespace tsg {
 
 std::optional<DenseKeyframe> DenseKeyframes::add_frame(const RgbdFrame& frame,
-                                                       const SE3& T_map_camera,
+                                                       const KeyframePlace& place,
                                                        bool is_keyframe,
                                                        const InstanceSegmentation* own_mask) {
   const bool is_wanted = is_keyframe || !waiting_.empty();
@@ -15,9 +15,9 @@ std::optional<DenseKeyframe> DenseKeyframes::add_frame(const RgbdFrame& frame,
     for (Waiting& older : waiting_) spare_.push_back(std::move(older.frame));
     waiting_.clear();
     auto mask = own_mask != nullptr ? std::optional(*own_mask) : std::nullopt;
-    return DenseKeyframe{frame, T_map_camera, std::move(mask)};
+    return DenseKeyframe{frame, place, std::move(mask)};
   }
-  keep(frame, T_map_camera);
+  keep(frame, place);
   if (frame.stamp_ns - waiting_.front().frame.stamp_ns < patience_ns_) return std::nullopt;
   return flush();
 }
@@ -35,8 +35,8 @@ std::optional<DenseKeyframe> DenseKeyframes::flush() {
   return release(std::move(waiting_.front()), std::nullopt);
 }
 
-void DenseKeyframes::keep(const RgbdFrame& frame, const SE3& T_map_camera) {
-  Waiting copy{frame, T_map_camera};
+void DenseKeyframes::keep(const RgbdFrame& frame, const KeyframePlace& place) {
+  Waiting copy{frame, place};
   copy.frame.colour = cv::Mat();
   copy.frame.depth = cv::Mat();
   if (!spare_.empty()) {
@@ -57,7 +57,7 @@ DenseKeyframe DenseKeyframes::release(Waiting waiting,
     if (!other.frame.colour.empty()) spare_.push_back(std::move(other.frame));
   }
   waiting_.clear();
-  return {released_->frame, released_->T_map_camera, std::move(segmentation)};
+  return {released_->frame, released_->place, std::move(segmentation)};
 }
 
 }  // namespace tsg

@@ -8,13 +8,22 @@
 #include "common/geometry/se3.hpp"
 #include "common/rgbd/instances.hpp"
 #include "common/rgbd/rgbd_frame.hpp"
+#include "services/slam/lib/ids.hpp"
 
 namespace tsg {
+
+/// Where a frame was taken: in `map` as known then, and relative to a keyframe of tracking, so that
+/// later corrections can be followed.
+struct KeyframePlace {
+  SE3 T_map_camera = {};
+  KeyframeId reference = 0;
+  SE3 T_reference_camera = {};
+};
 
 /// A frame for the map server. Views: valid until the next call of DenseKeyframes.
 struct DenseKeyframe {
   RgbdFrame frame;
-  SE3 T_map_camera;
+  KeyframePlace place;
   /// The frame's own; absent where its mask did not come.
   std::optional<InstanceSegmentation> segmentation;
 };
@@ -32,7 +41,7 @@ class DenseKeyframes {
 
   /// A tracked frame. `own_mask`: of this very frame, where it is known already, else null.
   std::optional<DenseKeyframe> add_frame(const RgbdFrame& frame,
-                                         const SE3& T_map_camera,
+                                         const KeyframePlace& place,
                                          bool is_keyframe,
                                          const InstanceSegmentation* own_mask);
 
@@ -48,9 +57,9 @@ class DenseKeyframes {
  private:
   struct Waiting {
     RgbdFrame frame;  // its images are ours
-    SE3 T_map_camera;
+    KeyframePlace place;
   };
-  void keep(const RgbdFrame& frame, const SE3& T_map_camera);
+  void keep(const RgbdFrame& frame, const KeyframePlace& place);
   DenseKeyframe release(Waiting waiting, std::optional<InstanceSegmentation> segmentation);
 
   bool expect_masks_;

@@ -27,7 +27,7 @@ InstanceSegmentation mask_of(std::uint64_t seq) {
 TEST(DenseKeyframes, SendsAKeyframeAtOnceWithItsOwnMask) {
   DenseKeyframes keyframes(true, kPatienceNs);
   const InstanceSegmentation mask = mask_of(3);
-  const auto sent = keyframes.add_frame(frame_number(3), SE3(), true, &mask);
+  const auto sent = keyframes.add_frame(frame_number(3), KeyframePlace{}, true, &mask);
   ASSERT_TRUE(sent);
   EXPECT_EQ(sent->frame.seq, 3U);
   EXPECT_TRUE(sent->segmentation);
@@ -35,7 +35,7 @@ TEST(DenseKeyframes, SendsAKeyframeAtOnceWithItsOwnMask) {
 
 TEST(DenseKeyframes, SendsAKeyframeAtOnceWhereNobodySegments) {
   DenseKeyframes keyframes(false, kPatienceNs);
-  const auto sent = keyframes.add_frame(frame_number(3), SE3(), true, nullptr);
+  const auto sent = keyframes.add_frame(frame_number(3), KeyframePlace{}, true, nullptr);
   ASSERT_TRUE(sent);
   EXPECT_FALSE(sent->segmentation);
   EXPECT_EQ(keyframes.without_mask(), 0U);
@@ -44,28 +44,28 @@ TEST(DenseKeyframes, SendsAKeyframeAtOnceWhereNobodySegments) {
 TEST(DenseKeyframes, LeavesOtherFramesAlone) {
   DenseKeyframes keyframes(true, kPatienceNs);
   const InstanceSegmentation mask = mask_of(3);
-  EXPECT_FALSE(keyframes.add_frame(frame_number(3), SE3(), false, &mask));
+  EXPECT_FALSE(keyframes.add_frame(frame_number(3), KeyframePlace{}, false, &mask));
   EXPECT_FALSE(keyframes.add_mask(mask_of(3)));
 }
 
 TEST(DenseKeyframes, SendsTheFrameThatALateMaskBelongsTo) {
   DenseKeyframes keyframes(true, kPatienceNs);
-  EXPECT_FALSE(keyframes.add_frame(frame_number(3), SE3(), true, nullptr));
+  EXPECT_FALSE(keyframes.add_frame(frame_number(3), KeyframePlace{}, true, nullptr));
   {
     RgbdFrame gone = frame_number(4);  // its pixels must have been copied
     const SE3 T_map_camera(Eigen::Quaterniond::Identity(), Eigen::Vector3d(4.0, 0.0, 0.0));
-    EXPECT_FALSE(keyframes.add_frame(gone, T_map_camera, false, nullptr));
+    EXPECT_FALSE(keyframes.add_frame(gone, {.T_map_camera = T_map_camera}, false, nullptr));
     gone.colour.setTo(0);
     gone.depth.setTo(0);
   }
-  EXPECT_FALSE(keyframes.add_frame(frame_number(5), SE3(), false, nullptr));
+  EXPECT_FALSE(keyframes.add_frame(frame_number(5), KeyframePlace{}, false, nullptr));
   EXPECT_FALSE(keyframes.add_mask(mask_of(2)));
   const auto sent = keyframes.add_mask(mask_of(4));
   ASSERT_TRUE(sent);
   EXPECT_EQ(sent->frame.seq, 4U);
   EXPECT_EQ(sent->frame.depth.at<std::uint16_t>(2, 2), 4);
   EXPECT_EQ(sent->frame.colour.at<cv::Vec3b>(2, 2)[0], 4);
-  EXPECT_EQ(sent->T_map_camera.translation().x(), 4.0);
+  EXPECT_EQ(sent->place.T_map_camera.translation().x(), 4.0);
   EXPECT_FALSE(keyframes.add_mask(mask_of(5))) << "one frame for each keyframe";
 }
 
@@ -74,7 +74,7 @@ TEST(DenseKeyframes, SendsTheKeyframeUnlabelledWhenNoMaskComesInTime) {
   std::optional<DenseKeyframe> sent;
   std::uint64_t seq = 3;
   for (; !sent && seq < 100; ++seq) {
-    sent = keyframes.add_frame(frame_number(seq), SE3(), seq == 3, nullptr);
+    sent = keyframes.add_frame(frame_number(seq), KeyframePlace{}, seq == 3, nullptr);
   }
   ASSERT_TRUE(sent);
   EXPECT_EQ(seq, 3U + 10U + 1U);
@@ -86,7 +86,7 @@ TEST(DenseKeyframes, SendsTheKeyframeUnlabelledWhenNoMaskComesInTime) {
 TEST(DenseKeyframes, FlushSendsWhatStillWaits) {
   DenseKeyframes keyframes(true, kPatienceNs);
   EXPECT_FALSE(keyframes.flush());
-  EXPECT_FALSE(keyframes.add_frame(frame_number(3), SE3(), true, nullptr));
+  EXPECT_FALSE(keyframes.add_frame(frame_number(3), KeyframePlace{}, true, nullptr));
   const auto sent = keyframes.flush();
   ASSERT_TRUE(sent);
   EXPECT_EQ(sent->frame.seq, 3U);

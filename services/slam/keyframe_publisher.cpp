@@ -1,7 +1,10 @@
 #include "services/slam/keyframe_publisher.hpp"
 
+#include <algorithm>
+
 #include "common/bus/convert.hpp"
 #include "common/core/time.hpp"
+#include "services/slam/odometry.hpp"
 
 namespace tsg {
 namespace {
@@ -45,10 +48,35 @@ Expected<void> KeyframePublisher::publish(const DenseKeyframe& keyframe) {
   if (auto filled = fill(keyframe, message); !filled) return filled;
   message.header.seq = sent_;
   message.id = sent_;
-  message.T_world_camera = to_message(keyframe.T_map_camera);
+  message.T_world_camera = to_message(keyframe.place.T_map_camera);
   auto published = publisher_.publish(std::move(*loan));
-  if (published) ++sent_;
+  if (!published) return published;
+  placed_.push_back({.id = sent_,
+                     .stamp_ns = keyframe.frame.stamp_ns,
+                     .reference = keyframe.place.reference,
+                     .T_reference_camera = keyframe.place.T_reference_camera});
+  ++sent_;
   return published;
+}
+
+Expected<void> KeyframePublisher::publish_poses(const std::vector<KeyframePose>& corrected) {
+  std::vector<tsg_KeyframePose> poses;
+  for (const Placed& placed : placed_) {
+    const auto reference =
+        std::lower_bound(corrected.begin(), corrected.end(), placed.reference,
+                         [](const KeyframePose& pose, KeyframeId id) { return pose.id < id; });
+    if (reference == corrected.end() || reference->id != placed.reference) continue;
+    const SE3 T_world_camera = reference->T_world_camera * placed.T_reference_camera;
+    poses.push_back({.id = placed.id,
+                     .stamp_ns = placed.stamp_ns,
+                     .T_world_camera = to_message(Odometry::T_map_world() * T_world_camera)});
+  }
+  topics::KeyframePoses::Message message{};
+  message.header.seq = corrections_++;
+  message.header.stamp_ns = poses.empty() ? 0 : poses.back().stamp_ns;
+  message.header.publish_monotonic_ns = monotonic_ns();
+  lend(poses, message.keyframes);
+  return poses_.publish(message);
 }
 
 }  // namespace tsg

@@ -22,6 +22,14 @@ void MappingLoop::insert(KeyframeCandidate&& candidate) {
   });
 }
 
+void MappingLoop::recall(const std::shared_ptr<const Features>& view) {
+  if (is_recalling_.exchange(true)) return;
+  post([this, view](LocalMapper& mapper, const std::stop_token&) {
+    mapper.recall(*view);
+    is_recalling_ = false;
+  });
+}
+
 void MappingLoop::remove_points(std::vector<PointId> points) {
   if (points.empty()) return;
   post([points = std::move(points)](LocalMapper& mapper, const std::stop_token&) {
@@ -51,17 +59,40 @@ void MappingLoop::post(Task task) {
     tasks_.push(std::move(task));
   } else {
     carry_out(task, {});
+    while (mapper_.is_adjusting()) mapper_.adjust({});
+    publish();
   }
 }
 
 void MappingLoop::carry_out(const Task& task, const std::stop_token& stop) {
   task(mapper_, stop);
-  snapshot_.store(mapper_.snapshot());
+  publish();
+}
+
+void MappingLoop::publish() {
+  auto snapshot = mapper_.snapshot();
+  if (snapshot->corrections != snapshot_.load()->corrections) {
+    corrected_poses_.store(
+        std::make_shared<const std::vector<KeyframePose>>(mapper_.keyframe_poses()));
+  }
+  snapshot_.store(std::move(snapshot));
 }
 
 void MappingLoop::work(const std::stop_token& stop) {
-  // After a stop the rest is still done; refine() then returns at once.
-  while (const auto task = tasks_.pop(stop)) carry_out(*task, stop);
+  const auto must_pause = [&] { return stop.stop_requested() || tasks_.size() > 0; };
+  while (true) {
+    const bool is_adjusting = mapper_.is_adjusting();
+    // After a stop the rest is still done; refine() then returns at once.
+    const auto task = is_adjusting ? tasks_.try_pop() : tasks_.pop(stop);
+    if (task) {
+      carry_out(*task, stop);
+    } else if (stop.stop_requested()) {
+      return;
+    } else {
+      mapper_.adjust(must_pause);
+      publish();
+    }
+  }
 }
 
 }  // namespace tsg

@@ -26,7 +26,15 @@ class MappingLoop {
     return snapshot_.load();
   }
 
+  /// Every keyframe's pose after the latest correction of the whole map; null before the first.
+  [[nodiscard]] std::shared_ptr<const std::vector<KeyframePose>> corrected_poses() const {
+    return corrected_poses_.load();
+  }
+
   void insert(KeyframeCandidate&& candidate);
+  /// Asks for the part of the map that shows the view of a lost frame; a snapshot to come is it.
+  /// Does nothing while an earlier call is not answered.
+  void recall(const std::shared_ptr<const Features>& view);
   void remove_points(std::vector<PointId> points);
   /// Copies the mask.
   void apply_mask(const InstanceSegmentation& mask);
@@ -40,9 +48,12 @@ class MappingLoop {
   void post(Task task);
   void carry_out(const Task& task, const std::stop_token& stop);
   void work(const std::stop_token& stop);
+  void publish();
 
   LocalMapper mapper_;  // owned by worker_ while there is one
   std::atomic<std::shared_ptr<const LocalMapSnapshot>> snapshot_;
+  std::atomic<std::shared_ptr<const std::vector<KeyframePose>>> corrected_poses_;
+  std::atomic<bool> is_recalling_ = false;
   // Nothing may be lost: a map without its keyframe would no longer fit what tracking refers to.
   BoundedQueue<Task> tasks_{kMaxTasks, WhenFull::kBlock};
   std::jthread worker_;

@@ -75,6 +75,7 @@ void SlamNode::handle(const Sample<topics::Rgbd>& sample) {
   trajectory_.record(result);
   statistics_.add(result, times);
   update_map(*frame, result, mask);
+  publish_corrections();
   publish_status(*frame, result, times);
   log_state(result);
 }
@@ -116,7 +117,9 @@ const InstanceSegmentation* SlamNode::mask_for(const RgbdFrame& frame) {
 TrackResult SlamNode::track(const RgbdFrame& frame, const InstanceSegmentation* mask) {
   const auto features = session_->tracker.extract(frame, mask);
   const auto map = session_->mapping.snapshot();
-  return session_->tracker.track(features, *map);
+  TrackResult result = session_->tracker.track(features, *map);
+  if (result.state == TrackingState::kLost) session_->mapping.recall(features);
+  return result;
 }
 
 void SlamNode::update_map(const RgbdFrame& frame,
@@ -127,8 +130,20 @@ void SlamNode::update_map(const RgbdFrame& frame,
   if (is_keyframe) session_->mapping.insert(std::move(*result.keyframe));
   if (!result.T_world_camera) return;
   const bool is_own_mask = mask != nullptr && mask->frame_seq == frame.seq;
-  send(dense_keyframes_.add_frame(frame, Odometry::T_map_world() * *result.T_world_camera,
-                                  is_keyframe, is_own_mask ? mask : nullptr));
+  const KeyframePlace place{.T_map_camera = Odometry::T_map_world() * *result.T_world_camera,
+                            .reference = result.reference,
+                            .T_reference_camera = result.T_reference_camera};
+  send(dense_keyframes_.add_frame(frame, place, is_keyframe, is_own_mask ? mask : nullptr));
+}
+
+void SlamNode::publish_corrections() {
+  auto corrected = session_->mapping.corrected_poses();
+  if (corrected == corrected_) return;
+  corrected_ = std::move(corrected);
+  log_.info("map corrected by a loop", {{"keyframes", corrected_->size()}});
+  if (const auto published = keyframes_.publish_poses(*corrected_); !published) {
+    log_.warn("corrected poses not published", {{"why", published.error().message}});
+  }
 }
 
 void SlamNode::publish_pose(const TrackResult& result) {

@@ -46,6 +46,7 @@ class SlamNode {
   [[nodiscard]] const InstanceSegmentation* mask_for(const RgbdFrame& frame);
   [[nodiscard]] TrackResult track(const RgbdFrame& frame, const InstanceSegmentation* mask);
   void update_map(const RgbdFrame& frame, TrackResult& result, const InstanceSegmentation* mask);
+  void publish_corrections();
   void publish_pose(const TrackResult& result);
   void publish_status(const RgbdFrame& frame, const TrackResult& result, const FrameTimes& times);
   void publish_rejection(const tsg_RgbdFrame& message, const std::string& why);
@@ -72,6 +73,7 @@ class SlamNode {
   Odometry odometry_;
   DenseKeyframes dense_keyframes_;
   TrajectoryRecorder trajectory_;
+  std::shared_ptr<const std::vector<KeyframePose>> corrected_;  // as published last
   NodeStatistics statistics_;
   TrackingState state_ = TrackingState::kInitialising;
   std::int64_t last_stamp_ns_ = 0;

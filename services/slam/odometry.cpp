@@ -17,6 +17,8 @@ SE3 Odometry::motion_since(const Last& last, const TrackResult& result) {
   if (last.reference == result.reference) {
     return last.T_reference_camera.inverse() * result.T_reference_camera;
   }
+  // Tracking knows both poses in one map, even where the map was corrected in between.
+  if (result.T_previous_camera) return *result.T_previous_camera;
   return last.T_world_camera.inverse() * *result.T_world_camera;
 }
 

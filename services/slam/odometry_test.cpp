@@ -51,6 +51,18 @@ TEST(Odometry, DoesNotJumpWhenTheMapIsCorrected) {
   EXPECT_NEAR(after->T_map_odom.translation().norm(), 5.0, 1e-9);
 }
 
+TEST(Odometry, DoesNotJumpWhenTheReferenceChangesAsTheMapIsCorrected) {
+  Odometry odometry;
+  const auto before = odometry.update(result_at(0, 0, SE3(), SE3()));
+  TrackResult corrected = result_at(1, 7, forward(3.0), forward(0.2));
+  corrected.T_previous_camera = forward(0.1);
+  const auto after = odometry.update(corrected);
+  ASSERT_TRUE(before && after);
+  expect_near(before->T_odom_camera.inverse() * after->T_odom_camera, forward(0.1));
+  expect_near(after->T_map_odom * after->T_odom_camera, after->T_map_camera);
+  EXPECT_NEAR(after->T_map_odom.translation().norm(), 3.1, 1e-9);
+}
+
 TEST(Odometry, DoesNotJumpWhenTheCameraIsFoundAgainElsewhere) {
   Odometry odometry;
   const auto before = odometry.update(result_at(0, 0, SE3(), SE3()));

@@ -143,6 +143,17 @@ void DynamicFilter::note_pose(std::uint64_t seq, const SE3& T_world_camera) {
   }
 }
 
+void DynamicFilter::move_world(const SE3& T_moved_world) {
+  for (PastFrame& past : past_) {
+    if (past.T_world_camera) past.T_world_camera = T_moved_world * *past.T_world_camera;
+  }
+  for (Body& body : bodies_) {
+    for (Eigen::Vector3d& point : body.points) point = T_moved_world * point;
+    body.centre = T_moved_world * body.centre;
+    body.v_world = T_moved_world.rotation() * body.v_world;
+  }
+}
+
 bool DynamicFilter::was_dynamic(const Eigen::Vector3d& p_world) const {
   const PastFrame* past = mask_seq_ ? find_past(*mask_seq_) : nullptr;
   if (past == nullptr || !past->T_world_camera) return false;

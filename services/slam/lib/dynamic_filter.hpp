@@ -34,6 +34,9 @@ class DynamicFilter {
   /// The pose of a frame that was judged, once tracking has found it.
   void note_pose(std::uint64_t seq, const SE3& T_world_camera);
 
+  /// The map was moved, and what is known of past frames moves along.
+  void move_world(const SE3& T_moved_world);
+
   /// Whether a point of the map lay on a dynamic instance in the frame of the latest mask. False
   /// where the depth or the pose of that frame is not known.
   [[nodiscard]] bool was_dynamic(const Eigen::Vector3d& p_world) const;

@@ -38,7 +38,8 @@ struct LocalMapSnapshot {
   KeyframeId newest = 0;              ///< keyframe that was inserted last
   std::vector<SnapshotPoint> points;  ///< sorted by id
   std::vector<SnapshotKeyframe> keyframes;  ///< sorted by id; empty before the first
-  std::size_t map_keyframes = 0;            ///< in the whole map
+  std::vector<KeyframeId> recalled;  ///< that may show the view of a lost frame, likeliest first
+  std::size_t map_keyframes = 0;     ///< in the whole map
   std::size_t map_points = 0;
 
   /// Null where the keyframe or point is not part of the snapshot.

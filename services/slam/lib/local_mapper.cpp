@@ -18,6 +18,8 @@
 namespace tsg {
 namespace {
 
+constexpr std::size_t kMaxRecalled = 4;  // places tried for a lost frame; bounds its time
+
 /// A keyframe that was taken out, relative to one that was not then.
 struct CulledKeyframe {
   KeyframeId parent = 0;
@@ -171,6 +173,19 @@ bool LocalMapper::apply_mask(const InstanceSegmentation& mask) {
     if (keyframe.points[i] != kNoPoint) impl_->map.remove_point(keyframe.points[i]);
   }
   return true;
+}
+
+void LocalMapper::recall(const Features& view) {
+  std::vector<KeyframeId> recalled;
+  for (const PlaceCandidate& candidate : impl_->closer.recall(view)) {
+    if (recalled.size() < kMaxRecalled) recalled.push_back(candidate.keyframe);
+  }
+  if (recalled.empty()) return;
+  LocalMapSnapshot snapshot =
+      build_recall_snapshot(impl_->map, impl_->config.mapper, impl_->newest, recalled);
+  snapshot.version = ++impl_->version;
+  snapshot.corrections = impl_->corrections;
+  impl_->published = std::make_shared<const LocalMapSnapshot>(std::move(snapshot));
 }
 
 std::shared_ptr<const LocalMapSnapshot> LocalMapper::snapshot() {

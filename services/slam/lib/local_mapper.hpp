@@ -54,6 +54,10 @@ class LocalMapper {
   /// takes out what the keyframe saw on dynamic instances. False if no keyframe has that seq.
   bool apply_mask(const InstanceSegmentation& mask);
 
+  /// Tracking has lost the camera, and this is what it sees: the snapshot becomes the part of the
+  /// map that looks like it, until the map changes. As it was where nothing does.
+  void recall(const Features& view);
+
   /// The local map as it is now; the same object until the map changes.
   [[nodiscard]] std::shared_ptr<const LocalMapSnapshot> snapshot();
 

@@ -1,13 +1,12 @@
 #include "services/slam/lib/loop_verifier.hpp"
 
 #include <algorithm>
-#include <array>
 #include <unordered_set>
 
 #include "services/slam/lib/feature_matcher.hpp"
 #include "services/slam/lib/pnp.hpp"
 #include "services/slam/lib/point_projection.hpp"
-#include "services/slam/lib/surface_agreement.hpp"
+#include "services/slam/lib/view_check.hpp"
 
 namespace tsg {
 namespace {
@@ -20,26 +19,6 @@ constexpr double kFarRadius = 30.0;    // pixels: where the pose is foretold
 constexpr double kNarrowRadius = 4.0;  // pixels: after a pose by many
 constexpr double kDepthGateSigmas = 12.0;
 constexpr std::size_t kNeighbours = 10;  // keyframes around the candidate whose points are searched
-constexpr int kColumns = 4;              // of the cells that inliers must spread over
-constexpr int kRows = 4;
-constexpr int kMinAgreeing = 150;  // cells of about 2100: an overlap of some 7 % of the image
-
-/// Cells of the image that hold at least one matched feature.
-int cells_with_matches(const CameraModel& camera,
-                       const Features& features,
-                       const FrameMatches& matches) {
-  std::array<bool, static_cast<std::size_t>(kColumns) * kRows> hit{};
-  const std::vector<bool> taken = matches.taken();
-  for (std::size_t i = 0; i < taken.size(); ++i) {
-    if (!taken[i]) continue;
-    const Eigen::Vector2f& pixel = features.items[i].pixel;
-    const int column =
-        std::clamp(static_cast<int>(pixel.x()) * kColumns / camera.width, 0, kColumns - 1);
-    const int row = std::clamp(static_cast<int>(pixel.y()) * kRows / camera.height, 0, kRows - 1);
-    hit[static_cast<std::size_t>(row * kColumns + column)] = true;
-  }
-  return static_cast<int>(std::count(hit.begin(), hit.end(), true));
-}
 
 }  // namespace
 
@@ -131,21 +110,12 @@ std::optional<VerifiedView> LoopVerifier::judge(const Keyframe& seen,
                                                 const FrameMatches& matches) const {
   const int inliers = matches.count();
   if (inliers < config_.min_inliers) return std::nullopt;
-  if (cells_with_matches(model_.camera(), *seen.features, matches) < config_.min_cells) {
+  if (cells_with_matches(model_.camera(), matches) < config_.min_cells) return std::nullopt;
+  const SE3 T_candidate_seen = candidate.T_world_camera.inverse() * T_world_camera;
+  if (!do_surfaces_fit(model_, *seen.features, *candidate.features, T_candidate_seen,
+                       config_.max_contradiction)) {
     return std::nullopt;
   }
-  const SE3 T_candidate_seen = candidate.T_world_camera.inverse() * T_world_camera;
-  const Surface& seen_surface = seen.features->surface;
-  const Surface& candidate_surface = candidate.features->surface;
-  const double sigma = model_.inverse_depth_sigma();
-  const auto there =
-      compare_surfaces(model_.camera(), seen_surface, candidate_surface, T_candidate_seen, sigma);
-  const auto back = compare_surfaces(model_.camera(), candidate_surface, seen_surface,
-                                     T_candidate_seen.inverse(), sigma);
-  const bool fits = std::min(there.agreeing, back.agreeing) >= kMinAgreeing &&
-                    there.contradiction() <= config_.max_contradiction &&
-                    back.contradiction() <= config_.max_contradiction;
-  if (!fits) return std::nullopt;
   return VerifiedView{candidate.id, T_world_camera, inliers};
 }
 

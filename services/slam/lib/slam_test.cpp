@@ -103,6 +103,59 @@ TEST_F(SlamTest, IsLostOnBlankImagesAndFindsItsMapAgain) {
   EXPECT_LT((back.inverse() * *result.T_world_camera).translation().norm(), 0.01);
 }
 
+/// A walk along a wall until tracking's part of the map no longer holds where it began.
+class RelocalisationTest : public SlamTest {
+ protected:
+  RelocalisationTest() {
+    SlamConfig config;
+    config.mapper.snapshot_keyframes = 3;
+    mapper_ = LocalMapper(config, synthetic::camera());
+    scene_.add({.z = 3.0, .corner = {4.0, -3.0}, .extent = {8.0, 6.0}, .texture_seed = 31});
+  }
+  void walk_away_and_lose() {
+    for (; seq_ < 38; ++seq_) {
+      const double x = 0.1 * static_cast<double>(seq_);
+      ASSERT_TRUE(step(seq_, synthetic::pose_at(x, 0.0, 0.0)).T_world_camera);
+    }
+    ASSERT_FALSE(step(blank(seq_++)).T_world_camera);
+  }
+  /// A lost frame, and what mapping recalls by it.
+  TrackResult step_and_recall(const synthetic::Scene& scene, const SE3& T_world_camera) {
+    const auto features = tracker_.extract(scene.render(seq_++, T_world_camera), nullptr);
+    TrackResult result = tracker_.track(features, *mapper_.snapshot());
+    if (result.state == TrackingState::kLost) mapper_.recall(*features);
+    return result;
+  }
+  std::uint64_t seq_ = 0;
+};
+
+TEST_F(RelocalisationTest, FindsAPlaceThatTheLocalMapHasLeftBehind) {
+  walk_away_and_lose();
+  const SE3 T_world_camera = synthetic::pose_at(-0.1, 0.1, 0.05, 0.1);
+  EXPECT_FALSE(step_and_recall(scene_, T_world_camera).T_world_camera);
+  const TrackResult found = step_and_recall(scene_, T_world_camera);
+  ASSERT_TRUE(found.T_world_camera) << found.reason;
+  EXPECT_TRUE(found.relocalised);
+  EXPECT_LT((T_world_camera.inverse() * *found.T_world_camera).translation().norm(), 0.01);
+  const SE3 T_world_next = synthetic::pose_at(-0.12, 0.1, 0.05, 0.1);
+  const TrackResult next = step_and_recall(scene_, T_world_next);
+  ASSERT_TRUE(next.T_world_camera);
+  EXPECT_FALSE(next.relocalised);
+  EXPECT_LT((T_world_next.inverse() * *next.T_world_camera).translation().norm(), 0.01);
+}
+
+TEST_F(RelocalisationTest, StaysLostWhereTheSameThingsStandElsewhere) {
+  walk_away_and_lose();
+  const synthetic::Scene elsewhere(
+      {{.z = 4.5, .corner = {-4.0, -3.0}, .extent = {8.0, 6.0}, .texture_seed = 21},
+       {.z = 2.0, .corner = {-0.9, -0.4}, .extent = {0.8, 1.0}, .texture_seed = 2},
+       {.z = 1.6, .corner = {0.3, -0.2}, .extent = {0.5, 0.6}, .texture_seed = 3}});
+  for (int i = 0; i < 8; ++i) {
+    const SE3 T_world_camera = synthetic::pose_at(0.02 * i, 0.0, 0.0);
+    EXPECT_FALSE(step_and_recall(elsewhere, T_world_camera).T_world_camera) << "frame " << i;
+  }
+}
+
 TEST_F(SlamTest, FollowsACameraThatMovesFarBetweenTwoFrames) {
   for (int i = 0; i < 4; ++i) step(static_cast<std::uint64_t>(i), on_path(i));
   const SE3 far = on_path(3) * synthetic::pose_at(-0.3, 0.1, 0.15, 0.15);

@@ -45,15 +45,36 @@ SnapshotPoint to_snapshot(const MapPoint& point) {
           .descriptor = point.descriptor};
 }
 
-}  // namespace
+/// `recalled`, then in turn a neighbour of each.
+std::vector<KeyframeId> around(const Map& map, const std::vector<KeyframeId>& recalled) {
+  std::vector<KeyframeId> order = recalled;
+  std::unordered_set<KeyframeId> known(recalled.begin(), recalled.end());
+  std::vector<std::vector<Covisibility>> neighbours;
+  std::size_t most = 0;
+  for (const KeyframeId id : recalled) {
+    neighbours.push_back(map.covisible_with(map.keyframe(id)));
+    most = std::max(most, neighbours.back().size());
+  }
+  for (std::size_t i = 0; i < most; ++i) {
+    for (const auto& of_one : neighbours) {
+      if (i < of_one.size() && known.insert(of_one[i].keyframe).second) {
+        order.push_back(of_one[i].keyframe);
+      }
+    }
+  }
+  return order;
+}
 
-LocalMapSnapshot build_snapshot(const Map& map, const MapperConfig& config, KeyframeId newest) {
+LocalMapSnapshot copy_keyframes(const Map& map,
+                                const MapperConfig& config,
+                                KeyframeId newest,
+                                const std::vector<KeyframeId>& order) {
   LocalMapSnapshot snapshot;
   snapshot.newest = newest;
   snapshot.map_keyframes = map.keyframes().size();
   snapshot.map_points = map.point_count();
   std::unordered_set<PointId> known;
-  for (const KeyframeId id : by_usefulness(map, config, newest)) {
+  for (const KeyframeId id : order) {
     if (static_cast<int>(snapshot.keyframes.size()) >= config.snapshot_keyframes) break;
     if (static_cast<int>(snapshot.points.size()) >= config.snapshot_points) break;
     const Keyframe& keyframe = map.keyframe(id);
@@ -67,6 +88,21 @@ LocalMapSnapshot build_snapshot(const Map& map, const MapperConfig& config, Keyf
   const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
   std::sort(snapshot.points.begin(), snapshot.points.end(), by_id);
   std::sort(snapshot.keyframes.begin(), snapshot.keyframes.end(), by_id);
+  return snapshot;
+}
+
+}  // namespace
+
+LocalMapSnapshot build_snapshot(const Map& map, const MapperConfig& config, KeyframeId newest) {
+  return copy_keyframes(map, config, newest, by_usefulness(map, config, newest));
+}
+
+LocalMapSnapshot build_recall_snapshot(const Map& map,
+                                       const MapperConfig& config,
+                                       KeyframeId newest,
+                                       const std::vector<KeyframeId>& recalled) {
+  LocalMapSnapshot snapshot = copy_keyframes(map, config, newest, around(map, recalled));
+  snapshot.recalled = recalled;
   return snapshot;
 }
 

@@ -13,4 +13,11 @@ namespace tsg {
                                               const MapperConfig& config,
                                               KeyframeId newest);
 
+/// Copies what finding a lost camera needs: `recalled`, the keyframes that may show its view, and
+/// their covisible neighbours.
+[[nodiscard]] LocalMapSnapshot build_recall_snapshot(const Map& map,
+                                                     const MapperConfig& config,
+                                                     KeyframeId newest,
+                                                     const std::vector<KeyframeId>& recalled);
+
 }  // namespace tsg

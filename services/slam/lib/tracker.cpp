@@ -7,34 +7,15 @@
 
 #include "services/slam/lib/dynamic_filter.hpp"
 #include "services/slam/lib/feature_extractor.hpp"
-#include "services/slam/lib/frame_search.hpp"
 #include "services/slam/lib/keyframe_policy.hpp"
 #include "services/slam/lib/observation_model.hpp"
-#include "services/slam/lib/pnp.hpp"
-#include "services/slam/lib/surface_prior.hpp"
+#include "services/slam/lib/pose_finder.hpp"
 
 namespace tsg {
 namespace {
 
-constexpr double kPredictedRadius = 8.0;         // pixels: the motion model's usual error
-constexpr double kSurpriseRadius = 24.0;         // pixels: when the camera was jerked
-constexpr double kMapRadius = 4.0;               // pixels: after a first pose from the last frame
-constexpr double kSurfaceRadius = 12.0;          // pixels: after a first pose from the surfaces
-constexpr double kKeyframeRadius = 10.0;         // pixels: after a first pose from a keyframe
-constexpr int kEnoughMatches = 3;                // times min_inliers; fewer: search on more widely
-constexpr std::size_t kKeyframesPerAttempt = 4;  // when lost; bounds the time of a frame
-constexpr double kMaxSigma = 0.02;               // metres or radians: how uncertain a pose may be
-constexpr std::int64_t kMaxSurfaceGapNs = 2'000'000'000;
 constexpr int kEstablished = 2;        // observations of a point that is no mere candidate
 constexpr double kDefaultDepth = 2.0;  // metres, of a scene without any depth
-
-/// A pose with the matches that it rests on.
-struct Fix {
-  SE3 T_camera_world;
-  FrameMatches matches;
-  int inliers = 0;
-  PosePrior prior = {};  ///< by the shape of the scene; without weight where that was not asked
-};
 
 double median_depth(const Features& features) {
   std::vector<float> inverse_depths;
@@ -58,28 +39,14 @@ struct Tracker::Impl {
         model(camera, slam_config),
         extractor(slam_config.features, camera),
         filter(slam_config.dynamic_filter, camera),
-        on_stage(std::move(stage_listener)) {}
+        on_stage(std::move(stage_listener)),
+        finder(config, model, on_stage) {}
 
-  void begin(TrackingStage stage) const {
-    if (on_stage) on_stage(stage);
-  }
   void start_map(const std::shared_ptr<const Features>& features, TrackResult& result);
   void follow_map(const LocalMapSnapshot& map);
   [[nodiscard]] SE3 predict(std::int64_t stamp_ns) const;
 
-  [[nodiscard]] std::optional<Fix> fix_by_last_frame(const FrameSearch& search,
-                                                     std::int64_t stamp_ns) const;
-  [[nodiscard]] std::optional<Fix> fix_by_surface(const FrameSearch& search,
-                                                  const Features& features) const;
-  [[nodiscard]] std::optional<Fix> fix_by_keyframes(const FrameSearch& search,
-                                                    const LocalMapSnapshot& map);
-  [[nodiscard]] std::optional<Fix> fix_by_keyframe(const FrameSearch& search,
-                                                   const SnapshotKeyframe& keyframe) const;
-  [[nodiscard]] std::optional<Fix> find_fix(const Features& features, const LocalMapSnapshot& map);
-  bool refine(const FrameSearch& search, const LocalMapSnapshot& map, Fix& fix);
-  [[nodiscard]] bool is_weak(const Fix& fix) const;
-  [[nodiscard]] bool is_certain(const Fix& fix, const PoseEstimate& estimate) const;
-  void count_sightings(const std::vector<PointId>& in_view, const FrameMatches& matches);
+  void count_sightings(const Fix& fix);
 
   void accept(const std::shared_ptr<const Features>& features,
               const LocalMapSnapshot& map,
@@ -96,13 +63,14 @@ struct Tracker::Impl {
   FeatureExtractor extractor;
   DynamicFilter filter;
   std::function<void(TrackingStage)> on_stage;
+  PoseFinder finder;
 
   bool started = false;
   bool lost = false;
   std::optional<TrackedFrame> last;
   Vector6d twist_per_second = Vector6d::Zero();  ///< log of T_last_now for one second
   KeyframeId next_keyframe = 0;
-  std::size_t next_attempt = 0;  ///< keyframe that relocalisation tries next
+  std::uint64_t corrections = 0;  ///< of the map that `last` is in
   std::map<PointId, PointSighting> sightings;
 };
 
@@ -129,9 +97,12 @@ void Tracker::Impl::start_map(const std::shared_ptr<const Features>& features,
 /// Brings the last pose to where mapping has moved its keyframe since.
 void Tracker::Impl::follow_map(const LocalMapSnapshot& map) {
   const SnapshotKeyframe* reference = map.find_keyframe(last->reference);
-  if (reference != nullptr) {
-    last->T_world_camera = reference->T_world_camera * last->T_reference_camera;
-  }
+  if (reference == nullptr) return;
+  const SE3 T_world_before = last->T_world_camera;
+  last->T_world_camera = reference->T_world_camera * last->T_reference_camera;
+  if (map.corrections == corrections) return;
+  corrections = map.corrections;
+  filter.move_world(last->T_world_camera * T_world_before.inverse());
 }
 
 SE3 Tracker::Impl::predict(std::int64_t stamp_ns) const {
@@ -140,128 +111,13 @@ SE3 Tracker::Impl::predict(std::int64_t stamp_ns) const {
   return last->T_world_camera * SE3::exp(twist_per_second * seconds);
 }
 
-std::optional<Fix> Tracker::Impl::fix_by_last_frame(const FrameSearch& search,
-                                                    std::int64_t stamp_ns) const {
-  const SE3 T_camera_world = predict(stamp_ns).inverse();
-  const int enough = kEnoughMatches * config.tracker.min_inliers;
-  begin(TrackingStage::kMatch);
-  FrameMatches matches =
-      search.match_last_frame(*last, LastFramePoints::kMapped, T_camera_world, kPredictedRadius);
-  if (matches.count() < enough) {
-    matches = search.match_last_frame(*last, LastFramePoints::kWithDepth, T_camera_world,
-                                      kSurpriseRadius);
-  }
-  if (matches.count() < config.tracker.min_inliers) return std::nullopt;
-  begin(TrackingStage::kOptimise);
-  const PoseEstimate estimate = matches.optimise(model, T_camera_world);
-  if (estimate.inliers < config.tracker.min_inliers) return std::nullopt;
-  return Fix{estimate.T_camera_world, std::move(matches), estimate.inliers};
-}
-
-std::optional<Fix> Tracker::Impl::fix_by_keyframe(const FrameSearch& search,
-                                                  const SnapshotKeyframe& keyframe) const {
-  begin(TrackingStage::kMatch);
-  FrameMatches matches = search.match_keyframe(keyframe);
-  begin(TrackingStage::kOptimise);
-  const int first_inliers = config.tracker.min_inliers / 2;
-  const auto estimate = solve_pnp(model, matches.to_point_matches(model), first_inliers);
-  if (!estimate) return std::nullopt;
-  // Few, but they tell where to look for more.
-  const PoseEstimate first = matches.optimise(model, estimate->T_camera_world);
-  begin(TrackingStage::kMatch);
-  search.match_local_map(first.T_camera_world, kKeyframeRadius, matches);
-  begin(TrackingStage::kOptimise);
-  const PoseEstimate refined = matches.optimise(model, first.T_camera_world);
-  if (refined.inliers < config.tracker.min_inliers) return std::nullopt;
-  return Fix{refined.T_camera_world, std::move(matches), refined.inliers};
-}
-
-/// The pose by the depth images, with what few corners there are.
-std::optional<Fix> Tracker::Impl::fix_by_surface(const FrameSearch& search,
-                                                 const Features& features) const {
-  // Later the camera may be anywhere, and rooms are full of shapes that look alike.
-  if (features.stamp_ns - last->features->stamp_ns > kMaxSurfaceGapNs) return std::nullopt;
-  begin(TrackingStage::kOptimise);
-  const SE3 T_predicted = predict(features.stamp_ns).inverse();
-  const auto prior = pose_by_surface(model, config.features, *last, features, T_predicted);
-  if (!prior) return std::nullopt;
-  begin(TrackingStage::kMatch);
-  FrameMatches matches = search.match_last_frame(*last, LastFramePoints::kWithDepth,
-                                                 prior->T_camera_world, kSurfaceRadius);
-  begin(TrackingStage::kOptimise);
-  const PoseEstimate estimate = matches.optimise(model, prior->T_camera_world, *prior);
-  Fix fix{estimate.T_camera_world, std::move(matches), estimate.inliers, *prior};
-  if (!is_certain(fix, estimate)) return std::nullopt;
-  return fix;
-}
-
-/// Tries the reference keyframe first, then, a few per frame, all that the snapshot has.
-std::optional<Fix> Tracker::Impl::fix_by_keyframes(const FrameSearch& search,
-                                                   const LocalMapSnapshot& map) {
-  if (map.keyframes.empty()) return std::nullopt;
-  if (const SnapshotKeyframe* reference = map.find_keyframe(last->reference)) {
-    if (auto fix = fix_by_keyframe(search, *reference)) return fix;
-  }
-  const std::size_t attempts = std::min(kKeyframesPerAttempt, map.keyframes.size());
-  for (std::size_t i = 0; i < attempts; ++i) {
-    const std::size_t back = next_attempt++ % map.keyframes.size();
-    const SnapshotKeyframe& keyframe = map.keyframes[map.keyframes.size() - 1 - back];
-    if (auto fix = fix_by_keyframe(search, keyframe)) return fix;
-  }
-  return std::nullopt;
-}
-
-bool Tracker::Impl::refine(const FrameSearch& search, const LocalMapSnapshot& map, Fix& fix) {
-  if (map.keyframes.empty()) return true;  // still on the depth of the first frames
-  begin(TrackingStage::kMatch);
-  const auto in_view = search.match_local_map(fix.T_camera_world, kMapRadius, fix.matches);
-  // Points of the last frame alone add up its errors: the map does not drift.
-  if (fix.matches.mapped() >= kEnoughMatches * config.tracker.min_inliers) {
-    fix.matches.drop_unmapped();
-  }
-  begin(TrackingStage::kOptimise);
-  const PoseEstimate estimate = fix.matches.optimise(model, fix.T_camera_world, fix.prior);
-  fix.T_camera_world = estimate.T_camera_world;
-  fix.inliers = estimate.inliers;
-  if (!is_certain(fix, estimate)) return false;
-  count_sightings(in_view, fix.matches);
-  return true;
-}
-
-bool Tracker::Impl::is_weak(const Fix& fix) const {
-  return fix.inliers < kEnoughMatches * config.tracker.min_inliers;
-}
-
-/// Where surfaces hold the pose too, fewer corners do, if together they leave no freedom.
-bool Tracker::Impl::is_certain(const Fix& fix, const PoseEstimate& estimate) const {
-  if (fix.inliers >= config.tracker.min_inliers) return true;
-  if (fix.prior.information.isZero() || fix.inliers < config.tracker.min_inliers / 3) return false;
-  return estimate.covariance.diagonal().maxCoeff() < kMaxSigma * kMaxSigma;
-}
-
-/// Each way in turn, the cheap ones first; the first pose that the map confirms.
-std::optional<Fix> Tracker::Impl::find_fix(const Features& features, const LocalMapSnapshot& map) {
-  const FrameSearch search(model, map, features);
-  std::optional<Fix> fix;
-  if (!lost) fix = fix_by_last_frame(search, features.stamp_ns);
-  if (fix && refine(search, map, *fix) && !is_weak(*fix)) return fix;
-  if (auto by_surface = fix_by_surface(search, features)) {
-    if (refine(search, map, *by_surface)) return by_surface;
-  }
-  if (fix && fix->inliers >= config.tracker.min_inliers) return fix;
-  fix = fix_by_keyframes(search, map);
-  if (fix && refine(search, map, *fix)) return fix;
-  return std::nullopt;
-}
-
-void Tracker::Impl::count_sightings(const std::vector<PointId>& in_view,
-                                    const FrameMatches& matches) {
-  for (const PointId id : in_view) {
+void Tracker::Impl::count_sightings(const Fix& fix) {
+  for (const PointId id : fix.in_view) {
     PointSighting& sighting = sightings[id];
     sighting.id = id;
     ++sighting.expected;
   }
-  for (const PointId id : matches.points()) {
+  for (const PointId id : fix.matches.points()) {
     if (id == kNoPoint) continue;
     PointSighting& sighting = sightings[id];
     sighting.id = id;
@@ -273,7 +129,8 @@ void Tracker::Impl::accept(const std::shared_ptr<const Features>& features,
                            const LocalMapSnapshot& map,
                            const Fix& fix,
                            TrackResult& result) {
-  begin(TrackingStage::kDecide);
+  if (on_stage) on_stage(TrackingStage::kDecide);
+  count_sightings(fix);
   TrackedFrame now{.features = features,
                    .points = fix.matches.points(),
                    .T_world_camera = fix.T_camera_world.inverse()};
@@ -284,8 +141,9 @@ void Tracker::Impl::accept(const std::shared_ptr<const Features>& features,
   now.T_reference_camera = T_world_reference.inverse() * now.T_world_camera;
   const double seconds = static_cast<double>(features->stamp_ns - last->features->stamp_ns) * 1e-9;
   twist_per_second = Vector6d::Zero();
-  if (!lost && seconds > 0.0) {
-    twist_per_second = (last->T_world_camera.inverse() * now.T_world_camera).log() / seconds;
+  if (!lost) {
+    result.T_previous_camera = last->T_world_camera.inverse() * now.T_world_camera;
+    if (seconds > 0.0) twist_per_second = result.T_previous_camera->log() / seconds;
   }
   result.relocalised = lost;
   lost = false;
@@ -386,7 +244,12 @@ TrackResult Tracker::track(const std::shared_ptr<const Features>& features,
     return result;
   }
   impl_->follow_map(map);
-  const std::optional<Fix> fix = impl_->find_fix(*features, map);
+  const std::optional<Fix> fix =
+      impl_->finder.find({.features = *features,
+                          .map = map,
+                          .last = *impl_->last,
+                          .T_predicted_world = impl_->predict(features->stamp_ns).inverse(),
+                          .is_lost = impl_->lost});
   if (!fix) {
     impl_->lose(result, "neither the last frame nor a keyframe matches the view");
     return result;

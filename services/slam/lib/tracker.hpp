@@ -12,6 +12,7 @@
 #include "services/slam/lib/keyframe_candidate.hpp"
 #include "services/slam/lib/local_map_snapshot.hpp"
 #include "services/slam/lib/slam_config.hpp"
+#include "services/slam/lib/tracking_stage.hpp"
 
 namespace tsg {
 
@@ -29,9 +30,12 @@ struct TrackResult {
   std::optional<SE3> T_world_camera = {};  ///< set exactly when state == kTracking
   KeyframeId reference = 0;                ///< the keyframe that shares most map points
   SE3 T_reference_camera = {};             ///< the same pose, relative to it
-  bool relocalised = false;                ///< tracking again after it was lost
-  int matches = 0;  ///< features matched to points of the map or the last frame
-  int inliers = 0;  ///< of these, kept by the last pose optimisation
+  /// The way from the previous frame's camera, both poses by the same map: free of what was
+  /// corrected in between. Set exactly where the previous frame was tracked too.
+  std::optional<SE3> T_previous_camera = {};
+  bool relocalised = false;  ///< tracking again after it was lost
+  int matches = 0;           ///< features matched to points of the map or the last frame
+  int inliers = 0;           ///< of these, kept by the last pose optimisation
   FeatureCounts features;
   int mask_age_frames = -1;
   std::string reason = {};                         ///< why there is no pose; empty while tracking
@@ -39,9 +43,6 @@ struct TrackResult {
   std::vector<PointId> dynamic_points = {};        ///< for LocalMapper::remove_points: found to lie
                                                    ///< on dynamic instances once their mask came
 };
-
-/// What track() spends its time on; each may begin several times in one frame.
-enum class TrackingStage { kMatch, kOptimise, kDecide };
 
 /// Finds the camera's pose in the local map, frame by frame.
 /// Deterministic; not thread-safe: the tracking thread owns it.

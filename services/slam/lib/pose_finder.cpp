@@ -1,0 +1,155 @@
+#include "services/slam/lib/pose_finder.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "services/slam/lib/pnp.hpp"
+#include "services/slam/lib/surface_prior.hpp"
+#include "services/slam/lib/view_check.hpp"
+
+namespace tsg {
+namespace {
+
+constexpr double kPredictedRadius = 8.0;         // pixels: the motion model's usual error
+constexpr double kSurpriseRadius = 24.0;         // pixels: when the camera was jerked
+constexpr double kMapRadius = 4.0;               // pixels: after a first pose from the last frame
+constexpr double kSurfaceRadius = 12.0;          // pixels: after a first pose from the surfaces
+constexpr double kKeyframeRadius = 10.0;         // pixels: after a first pose from a keyframe
+constexpr int kEnoughMatches = 3;                // times min_inliers; fewer: search on more widely
+constexpr std::size_t kKeyframesPerAttempt = 4;  // when lost; bounds the time of a frame
+constexpr double kMaxSigma = 0.02;               // metres or radians: how uncertain a pose may be
+constexpr std::int64_t kMaxSurfaceGapNs = 2'000'000'000;
+constexpr int kMinCells = 4;               // of 16 that matches must spread over where all was lost
+constexpr double kMaxContradiction = 0.2;  // things may have been moved since, a loop may wait
+
+}  // namespace
+
+std::optional<Fix> PoseFinder::find(const PoseQuery& query) {
+  std::optional<Fix> fix;
+  if (!query.is_lost) fix = by_last_frame(query);
+  if (fix && refine(query, *fix) && !is_weak(*fix)) return fix;
+  if (auto shaped = by_surface(query); shaped && refine(query, *shaped)) return shaped;
+  if (fix && fix->inliers >= config_.tracker.min_inliers) return fix;
+  return by_keyframes(query);
+}
+
+std::optional<Fix> PoseFinder::by_last_frame(const PoseQuery& query) const {
+  const FrameSearch search(model_, query.map, query.features);
+  const int enough = kEnoughMatches * config_.tracker.min_inliers;
+  begin(TrackingStage::kMatch);
+  FrameMatches matches = search.match_last_frame(query.last, LastFramePoints::kMapped,
+                                                 query.T_predicted_world, kPredictedRadius);
+  if (matches.count() < enough) {
+    matches = search.match_last_frame(query.last, LastFramePoints::kWithDepth,
+                                      query.T_predicted_world, kSurpriseRadius);
+  }
+  if (matches.count() < config_.tracker.min_inliers) return std::nullopt;
+  begin(TrackingStage::kOptimise);
+  const PoseEstimate estimate = matches.optimise(model_, query.T_predicted_world);
+  if (estimate.inliers < config_.tracker.min_inliers) return std::nullopt;
+  return Fix{estimate.T_camera_world, std::move(matches), estimate.inliers};
+}
+
+/// The pose by the depth images, with what few corners there are.
+std::optional<Fix> PoseFinder::by_surface(const PoseQuery& query) const {
+  // Later the camera may be anywhere, and rooms are full of shapes that look alike.
+  if (query.features.stamp_ns - query.last.features->stamp_ns > kMaxSurfaceGapNs) {
+    return std::nullopt;
+  }
+  begin(TrackingStage::kOptimise);
+  const auto prior = pose_by_surface(model_, config_.features, query.last, query.features,
+                                     query.T_predicted_world);
+  if (!prior) return std::nullopt;
+  begin(TrackingStage::kMatch);
+  const FrameSearch search(model_, query.map, query.features);
+  FrameMatches matches = search.match_last_frame(query.last, LastFramePoints::kWithDepth,
+                                                 prior->T_camera_world, kSurfaceRadius);
+  begin(TrackingStage::kOptimise);
+  const PoseEstimate estimate = matches.optimise(model_, prior->T_camera_world, *prior);
+  Fix fix{estimate.T_camera_world, std::move(matches), estimate.inliers, *prior};
+  if (!is_certain(fix, estimate)) return std::nullopt;
+  return fix;
+}
+
+/// What mapping recalls of the view; else the reference keyframe, and a few others in turn.
+std::vector<const SnapshotKeyframe*> PoseFinder::choose_keyframes(const PoseQuery& query) {
+  std::vector<const SnapshotKeyframe*> chosen;
+  const auto choose = [&](const SnapshotKeyframe* keyframe) {
+    if (keyframe != nullptr) chosen.push_back(keyframe);
+  };
+  for (const KeyframeId id : query.map.recalled) choose(query.map.find_keyframe(id));
+  choose(query.map.find_keyframe(query.last.reference));
+  const auto& keyframes = query.map.keyframes;
+  for (std::size_t i = 0; i < std::min(kKeyframesPerAttempt, keyframes.size()); ++i) {
+    const std::size_t back = next_attempt_++ % keyframes.size();
+    choose(&keyframes[keyframes.size() - 1 - back]);
+  }
+  return chosen;
+}
+
+std::optional<Fix> PoseFinder::by_keyframes(const PoseQuery& query) {
+  for (const SnapshotKeyframe* keyframe : choose_keyframes(query)) {
+    auto fix = by_keyframe(query, *keyframe);
+    if (!fix || !refine(query, *fix)) continue;
+    if (!query.is_lost || is_same_place(query, *keyframe, *fix)) return fix;
+  }
+  return std::nullopt;
+}
+
+std::optional<Fix> PoseFinder::by_keyframe(const PoseQuery& query,
+                                           const SnapshotKeyframe& keyframe) const {
+  const FrameSearch search(model_, query.map, query.features);
+  begin(TrackingStage::kMatch);
+  FrameMatches matches = search.match_keyframe(keyframe);
+  begin(TrackingStage::kOptimise);
+  const int first_inliers = config_.tracker.min_inliers / 2;
+  const auto estimate = solve_pnp(model_, matches.to_point_matches(model_), first_inliers);
+  if (!estimate) return std::nullopt;
+  // Few, but they tell where to look for more.
+  const PoseEstimate first = matches.optimise(model_, estimate->T_camera_world);
+  begin(TrackingStage::kMatch);
+  search.match_local_map(first.T_camera_world, kKeyframeRadius, matches);
+  begin(TrackingStage::kOptimise);
+  const PoseEstimate refined = matches.optimise(model_, first.T_camera_world);
+  if (refined.inliers < config_.tracker.min_inliers) return std::nullopt;
+  return Fix{refined.T_camera_world, std::move(matches), refined.inliers};
+}
+
+/// Nothing is known but the view: a thing that stands in two places must not do.
+bool PoseFinder::is_same_place(const PoseQuery& query,
+                               const SnapshotKeyframe& keyframe,
+                               const Fix& fix) const {
+  if (cells_with_matches(model_.camera(), fix.matches) < kMinCells) return false;
+  const SE3 T_camera_keyframe = fix.T_camera_world * keyframe.T_world_camera;
+  return do_surfaces_fit(model_, *keyframe.features, query.features, T_camera_keyframe,
+                         kMaxContradiction);
+}
+
+bool PoseFinder::refine(const PoseQuery& query, Fix& fix) const {
+  if (query.map.keyframes.empty()) return true;  // still on the depth of the first frames
+  const FrameSearch search(model_, query.map, query.features);
+  begin(TrackingStage::kMatch);
+  fix.in_view = search.match_local_map(fix.T_camera_world, kMapRadius, fix.matches);
+  // Points of the last frame alone add up its errors: the map does not drift.
+  if (fix.matches.mapped() >= kEnoughMatches * config_.tracker.min_inliers) {
+    fix.matches.drop_unmapped();
+  }
+  begin(TrackingStage::kOptimise);
+  const PoseEstimate estimate = fix.matches.optimise(model_, fix.T_camera_world, fix.prior);
+  fix.T_camera_world = estimate.T_camera_world;
+  fix.inliers = estimate.inliers;
+  return is_certain(fix, estimate);
+}
+
+bool PoseFinder::is_weak(const Fix& fix) const {
+  return fix.inliers < kEnoughMatches * config_.tracker.min_inliers;
+}
+
+/// Where surfaces hold the pose too, fewer corners do, if together they leave no freedom.
+bool PoseFinder::is_certain(const Fix& fix, const PoseEstimate& estimate) const {
+  if (fix.inliers >= config_.tracker.min_inliers) return true;
+  if (fix.prior.information.isZero() || fix.inliers < config_.tracker.min_inliers / 3) return false;
+  return estimate.covariance.diagonal().maxCoeff() < kMaxSigma * kMaxSigma;
+}
+
+}  // namespace tsg

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "services/slam/lib/frame_search.hpp"
+#include "services/slam/lib/tracking_stage.hpp"
+
+namespace tsg {
+
+/// A pose with the matches that it rests on.
+struct Fix {
+  SE3 T_camera_world;
+  FrameMatches matches;
+  int inliers = 0;
+  PosePrior prior = {};  ///< by the shape of the scene; without weight where that was not asked
+  std::vector<PointId> in_view = {};  ///< points of the map that are in view from there
+};
+
+/// What there is to find a frame's pose by. Views: valid during the call.
+struct PoseQuery {
+  const Features& features;
+  const LocalMapSnapshot& map;
+  const TrackedFrame& last;  ///< tracked before, its pose in `map`
+  SE3 T_predicted_world;     ///< camera from world, by the motion until then
+  bool is_lost = false;      ///< not tracked since `last`: only the map can tell
+};
+
+/// Finds the pose of a frame by the last frame, by the shape of the scene, or by keyframes.
+/// Deterministic; not thread-safe: Tracker owns it. `config`, `model` and `on_stage` (may be empty)
+/// must outlive it.
+class PoseFinder {
+ public:
+  PoseFinder(const SlamConfig& config,
+             const ObservationModel& model,
+             const std::function<void(TrackingStage)>& on_stage)
+      : config_(config), model_(model), on_stage_(on_stage) {}
+
+  /// Each way in turn, the cheap ones first; the first pose that the map confirms.
+  [[nodiscard]] std::optional<Fix> find(const PoseQuery& query);
+
+ private:
+  [[nodiscard]] std::optional<Fix> by_last_frame(const PoseQuery& query) const;
+  [[nodiscard]] std::optional<Fix> by_surface(const PoseQuery& query) const;
+  [[nodiscard]] std::optional<Fix> by_keyframes(const PoseQuery& query);
+  [[nodiscard]] std::optional<Fix> by_keyframe(const PoseQuery& query,
+                                               const SnapshotKeyframe& keyframe) const;
+  [[nodiscard]] std::vector<const SnapshotKeyframe*> choose_keyframes(const PoseQuery& query);
+  [[nodiscard]] bool is_same_place(const PoseQuery& query,
+                                   const SnapshotKeyframe& keyframe,
+                                   const Fix& fix) const;
+  [[nodiscard]] bool refine(const PoseQuery& query, Fix& fix) const;
+  [[nodiscard]] bool is_weak(const Fix& fix) const;
+  [[nodiscard]] bool is_certain(const Fix& fix, const PoseEstimate& estimate) const;
+  void begin(TrackingStage stage) const {
+    if (on_stage_) on_stage_(stage);
+  }
+
+  const SlamConfig& config_;
+  const ObservationModel& model_;
+  const std::function<void(TrackingStage)>& on_stage_;
+  std::size_t next_attempt_ = 0;  ///< keyframe that is tried next where none is recalled
+};
+
+}  // namespace tsg
