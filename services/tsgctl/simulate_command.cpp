@@ -14,6 +14,7 @@
 #include "services/tsgctl/lib/text_format.hpp"
 #include "services/tsgctl/run/progress.hpp"
 #include "services/tsgctl/simulate/scene_options.hpp"
+#include "services/tsgctl/simulate/sequence_writer.hpp"
 #include "services/tsgctl/simulate/simulate_sequence.hpp"
 
 namespace tsg {
@@ -64,6 +65,7 @@ void write_sequence(const SimulateArguments& arguments) {
         return load_scene(file);
       }));
   throw_on_error(apply(arguments.options, scene));
+  throw_on_error(check_new_folder(arguments.folder));  // before what takes long
   Progress progress;
   progress.say("building " + scene.name);
   auto simulator = value_or_throw(simulation::Simulator::build(scene));

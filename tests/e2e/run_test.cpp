@@ -22,7 +22,7 @@ std::vector<std::string> lockstep(const std::string& segmentation) {
 nlohmann::json complete_run(TsgctlRun& run) {
   const ProgramResult result = run.run();
   EXPECT_EQ(result.end.exit_code, 0) << result.output;
-  const nlohmann::json report = run.report();
+  nlohmann::json report = run.report();
   if (!report.is_object()) {
     ADD_FAILURE() << "no report.json:\n" << result.output;
     return {};
@@ -70,12 +70,15 @@ TEST(RunSimulatedRoom, TwoLockstepRunsGiveTheSameTrajectoryToTheByte) {
   EXPECT_EQ(trajectory, test::content_of(second.out() / "trajectory.txt"));
 }
 
+constexpr const char* kCachedScene = TSG_SOURCE_DIR "/deploy/cached-scene";
+constexpr const char* kTsgctl = TSG_BIN_DIR "/tsgctl";
+
 /// What deploy/quickstart does about its input.
 ProgramResult cached_scene(const std::filesystem::path& cache, const std::string& scene) {
-  return run_program("/usr/bin/env",
-                     {"XDG_CACHE_HOME=" + cache.string(), TSG_SOURCE_DIR "/deploy/cached-scene",
-                      TSG_BIN_DIR "/tsgctl", scene, "--frames", "3"},
-                     kRunTimeout);
+  return run_program(
+      "/usr/bin/env",
+      {"XDG_CACHE_HOME=" + cache.string(), kCachedScene, kTsgctl, scene, "--frames", "3"},
+      kRunTimeout);
 }
 
 std::filesystem::path last_line(const std::string& text) {

@@ -60,7 +60,7 @@ TEST(ShippedScene, DarkBlackoutIsBlindForASecondAndThenSeesAPlaceThatItHasSeen) 
     return T_now_then.translation().norm() < 0.3 && turn.angle() < 0.2;
   };
   bool has_been_here = false;
-  for (double time_s = 0.0; time_s < from_s; time_s += 0.1) has_been_here |= is_near(time_s);
+  for (int tenth = 0; 0.1 * tenth < from_s; ++tenth) has_been_here |= is_near(0.1 * tenth);
   EXPECT_TRUE(has_been_here);
 }
 

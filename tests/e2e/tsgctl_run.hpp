@@ -26,7 +26,7 @@ class TsgctlRun {
   [[nodiscard]] std::filesystem::path out() const { return folder_ / "out"; }
 
   /// Runs to the end.
-  ProgramResult run() { return start().wait(kRunTimeout); }
+  [[nodiscard]] ProgramResult run() const { return start().wait(kRunTimeout); }
   [[nodiscard]] RunningProgram start() const { return {TSG_BIN_DIR "/tsgctl", arguments_}; }
 
   /// OUT/report.json; null where it is absent or damaged.
@@ -52,12 +52,12 @@ inline void simulate(const std::filesystem::path& folder,
 
 /// A short sequence of a simulated office, made once for all tests of a program.
 inline const std::filesystem::path& simulated_room() {
-  static const test::TempFolder folder;
-  static const std::filesystem::path path = [] {
-    simulate(folder / "room", "demo", {"--frames", "40"});
-    return folder / "room";
+  static const test::TempFolder kFolder;
+  static const std::filesystem::path kPath = [] {
+    simulate(kFolder / "room", "demo", {"--frames", "40"});
+    return kFolder / "room";
   }();
-  return path;
+  return kPath;
 }
 
 }  // namespace tsg::test

@@ -49,7 +49,9 @@ std::set<int> visible_in(const cv::Mat& ids) {
   return visible;
 }
 
-Expected<void> check_empty(const fs::path& folder) {
+}  // namespace
+
+Expected<void> check_new_folder(const fs::path& folder) {
   std::error_code absent;
   if (!fs::exists(folder, absent)) return {};
   if (fs::is_directory(folder, absent) && fs::is_empty(folder, absent)) return {};
@@ -59,12 +61,10 @@ Expected<void> check_empty(const fs::path& folder) {
                         "give another");
 }
 
-}  // namespace
-
 Expected<SequenceWriter> SequenceWriter::open(const fs::path& folder,
                                               const simulation::SensorDescription& sensor,
                                               std::vector<SimulatedInstance> instances) {
-  if (auto empty = check_empty(folder); !empty) return tl::unexpected(empty.error());
+  if (auto empty = check_new_folder(folder); !empty) return tl::unexpected(empty.error());
   for (const char* kind : {"rgb", "depth", "mask"}) {
     if (auto made = make_folder(folder / kind); !made) return tl::unexpected(made.error());
   }

@@ -16,11 +16,14 @@ namespace tsg {
 /// When simulated sequences begin, UTC: any time will do, but always the same.
 inline constexpr std::int64_t kSequenceStartNs = 1'700'000'000'000'000'000;
 
+/// kCannotWrite where `folder` is there and holds something, or is no folder.
+[[nodiscard]] Expected<void> check_new_folder(const std::filesystem::path& folder);
+
 /// Writes simulated frames as a sequence in TUM layout, with true masks and exact poses. Lists and
 /// truth come last: a folder without rgb.txt is one that was not finished. One thread owns it.
 class SequenceWriter {
  public:
-  /// Makes the folders; kCannotWrite where that fails, or where `folder` is there and not empty.
+  /// Makes the folders; kCannotWrite where that fails; errors of check_new_folder().
   [[nodiscard]] static Expected<SequenceWriter> open(
       const std::filesystem::path& folder,
       const simulation::SensorDescription& sensor,
