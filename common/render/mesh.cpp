@@ -36,7 +36,7 @@ class EdgeSplitter {
     for (std::size_t i = 1; i < 3; ++i) {
       if (edge_length(corners, i) > edge_length(corners, longest)) longest = i;
     }
-    if (edge_length(corners, longest) <= max_edge_m_) {
+    if (!(edge_length(corners, longest) > max_edge_m_)) {  // so that NaN ends here, too
       result.push_back(triangle);
       return;
     }

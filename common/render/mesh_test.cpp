@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "common/render/shapes.hpp"
@@ -78,6 +79,12 @@ TEST(Mesh, SubdivisionKeepsTheSurfaceAndShortensItsEdges) {
   EXPECT_EQ(fine.points.size(), fine.normals.size());
   EXPECT_EQ(fine.points.size(), fine.uvs.size());
   expect_normals_outwards(fine);
+}
+
+TEST(Mesh, SubdivisionLeavesTrianglesAloneThatHaveNoSize) {
+  Mesh box = make_box({2, 1, 0.5F}, {});
+  for (Eigen::Vector3f& point : box.points) point.x() = std::nanf("");
+  EXPECT_EQ(subdivided(box, 0.13F).triangles.size(), box.triangles.size());
 }
 
 TEST(Shapes, BoxesAreClosedAndLookOutwards) {
