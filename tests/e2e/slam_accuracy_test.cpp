@@ -64,6 +64,17 @@ TEST(SlamAccuracy, RoundAStaticRoom) {
   follow({.name = "rendered/static_room", .options = {}, .most_ate_m = 0.008});
 }
 
+TEST(SlamAccuracy, ClosesALoopWhereTheLocalMapHasForgottenTheStart) {
+  TSG_REQUIRE_SHARED("data/rendered/static_room");
+  const std::string name = "rendered/static_room";
+  OfflineOptions options;
+  options.slam.mapper.snapshot_keyframes = 6;
+  const OfflineRun run = run_offline(sequence(name), options);
+  EXPECT_THAT(run.failures, IsEmpty());
+  EXPECT_GE(run.map_corrections, 2U) << "pose graph and full adjustment";
+  EXPECT_LE(ate_of(run, name), 0.01);
+}
+
 TEST(SlamAccuracy, BesideAChairThatIsDragged) {
   TSG_REQUIRE_SHARED("data/rendered/moved_chair");
   follow({.name = "rendered/moved_chair", .options = {}, .most_ate_m = 0.004});

@@ -8,7 +8,8 @@
 namespace tsg {
 namespace {
 
-constexpr int kMaxIterations = 20;
+constexpr int kRounds = 2;  // the second without the sightings that the first showed to be wrong
+constexpr int kIterations = 10;    // of a round
 constexpr double kMinDepth = 0.1;  // metres; a point that near or behind is a wrong sighting
 // A point that one keyframe sees says nothing of poses; it moves along with its keyframe.
 constexpr std::size_t kMinObservations = 2;
@@ -16,7 +17,7 @@ constexpr std::size_t kMinObservations = 2;
 }  // namespace
 
 FullAdjustment::FullAdjustment(const Map& map, const ObservationModel& model)
-    : iterations_left_(kMaxIterations) {
+    : rounds_left_(kRounds), iterations_left_(kIterations) {
   for (const auto& [id, keyframe] : map.keyframes()) {
     problem_.cameras.push_back({keyframe.T_world_camera.inverse(), keyframes_.empty()});
     keyframes_.push_back(id);
@@ -48,17 +49,40 @@ void FullAdjustment::add_point(const Map& map,
 
 void FullAdjustment::advance(const ObservationModel& model,
                              const std::function<bool()>& must_stop) {
+  while (!is_done()) {
+    iterate(model, must_stop);
+    if (iterations_left_ > 0) return;
+    --rounds_left_;
+    iterations_left_ = kIterations;
+    take_out_misfits(model);
+  }
+}
+
+/// Stops early or brings the round to its end.
+void FullAdjustment::iterate(const ObservationModel& model,
+                             const std::function<bool()>& must_stop) {
   bool stopped = false;
-  const BundleSummary summary = adjust_bundle(model,
-                                              {.max_iterations = iterations_left_,
-                                               .must_stop =
-                                                   [&] {
-                                                     stopped = must_stop && must_stop();
-                                                     return stopped;
-                                                   }},
-                                              problem_);
-  iterations_left_ -= std::max(summary.iterations, 1);
-  if (!stopped) iterations_left_ = 0;
+  bool has_begun = false;  // the solver asks before the first iteration too: one is always done
+  const BundleLimits limits{.max_iterations = iterations_left_, .must_stop = [&] {
+                              stopped = has_begun && must_stop && must_stop();
+                              has_begun = true;
+                              return stopped;
+                            }};
+  const BundleSummary summary = adjust_bundle(model, limits, problem_);
+  iterations_left_ = stopped ? iterations_left_ - std::max(summary.iterations, 1) : 0;
+}
+
+void FullAdjustment::take_out_misfits(const ObservationModel& model) {
+  const auto first = std::stable_partition(
+      problem_.sightings.begin(), problem_.sightings.end(),
+      [&](const BundleProblem::Sighting& sighting) {
+        const SE3& T_camera_world = problem_.cameras[sighting.camera].T_camera_world;
+        const Eigen::Vector3d p_camera = T_camera_world * problem_.points[sighting.point];
+        return p_camera.z() > kMinDepth &&
+               ObservationModel::is_inlier(model.residual(sighting.observation, p_camera));
+      });
+  misfits_.insert(misfits_.end(), first, problem_.sightings.end());
+  problem_.sightings.erase(first, problem_.sightings.end());
 }
 
 void FullAdjustment::write_back(Map& map, const ObservationModel& model) const {
@@ -67,6 +91,9 @@ void FullAdjustment::write_back(Map& map, const ObservationModel& model) const {
     targets[keyframes_[i]] = problem_.cameras[i].T_camera_world.inverse();
   }
   move_map(map, model, targets);
+  for (const BundleProblem::Sighting& misfit : misfits_) {
+    map.remove_observation_if_any(points_[misfit.point], keyframes_[misfit.camera]);
+  }
   for (std::size_t i = 0; i < points_.size(); ++i) {
     MapPoint* point = map.find_point(points_[i]);
     if (point == nullptr) continue;

@@ -115,7 +115,7 @@ TEST_F(LoopCloserTest, AdjustsInSlicesWhileTheMapGoesOn) {
   }
   EXPECT_GE(slices, 2);
   EXPECT_EQ(inserted, 2);
-  EXPECT_LT(worst_error(), 0.15 * error_before_);
+  EXPECT_LT(worst_error(), 0.06 * error_before_);
 }
 
 TEST_F(LoopCloserTest, LeavesTheMapAloneWhereItIsSwitchedOff) {

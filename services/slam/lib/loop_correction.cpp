@@ -10,9 +10,9 @@ namespace tsg {
 namespace {
 
 constexpr int kStrong = 100;             // shared points: such pairs hold each other well
-constexpr double kSigma_m = 0.003;       // of the relative pose of two keyframes that are close
+constexpr double kSigmaMetres = 0.003;   // of the relative pose of two keyframes that are close
 constexpr double kSigmaPerMetre = 0.01;  // and of those further apart
-constexpr double kSigma_rad = 0.001;
+constexpr double kSigmaRadians = 0.001;
 constexpr double kSigmaPerRadian = 0.01;
 constexpr double kWeakLink = 0.2;    // weight of neighbours in time that share too little
 constexpr double kJoinRadius = 8.0;  // pixels: the two sides fit each other within centimetres
@@ -20,11 +20,12 @@ constexpr double kJoinRadius = 8.0;  // pixels: the two sides fit each other wit
 using NodeOfKeyframe = std::unordered_map<KeyframeId, std::size_t>;
 
 PoseGraph::Edge make_edge(std::size_t a, std::size_t b, const SE3& T_a_b, double trust) {
-  return {.a = a,
-          .b = b,
-          .T_a_b = T_a_b,
-          .translation_weight = trust / (kSigma_m + kSigmaPerMetre * T_a_b.translation().norm()),
-          .rotation_weight = trust / (kSigma_rad + kSigmaPerRadian * T_a_b.angle())};
+  return {
+      .a = a,
+      .b = b,
+      .T_a_b = T_a_b,
+      .translation_weight = trust / (kSigmaMetres + kSigmaPerMetre * T_a_b.translation().norm()),
+      .rotation_weight = trust / (kSigmaRadians + kSigmaPerRadian * T_a_b.angle())};
 }
 
 /// Joins a keyframe with earlier ones: the one before it, and those that share many points.

@@ -12,10 +12,10 @@ constexpr std::size_t kMaxVerified = 3;  // candidates per keyframe; bounds the 
 constexpr int kHops = 2;                 // in the covisibility graph: so near is no loop
 constexpr KeyframeId kRecent = 10;       // keyframes before the newest: no loop either
 constexpr int kMaxMisses = 2;            // keyframes in a row that confirm nothing
-constexpr double kMaxDisagreement_m = 0.1;
-constexpr double kMaxDisagreement_rad = 0.05;
+constexpr double kMaxDisagreementMetres = 0.1;
+constexpr double kMaxDisagreementRadians = 0.05;
 constexpr double kDriftAllowance = 0.1;  // metres or radians, on top of the share of the path
-constexpr double kSceneDepth_m = 2.0;    // by which views are compared
+constexpr double kSceneDepth = 2.0;      // metres, by which views are compared
 constexpr double kMaxViewChange = 1.0;   // from further aside features do not match
 
 /// Length of the way that the camera took from one keyframe to another, along those in between.
@@ -33,6 +33,21 @@ double path_length(const Map& map, KeyframeId from, KeyframeId to) {
   return metres;
 }
 
+/// Neighbours of `rim` in the covisibility graph that are not in `known` yet; adds them to it.
+std::vector<KeyframeId> neighbours_beyond(const Map& map,
+                                          const std::vector<KeyframeId>& rim,
+                                          int min_shared_points,
+                                          std::unordered_set<KeyframeId>& known) {
+  std::vector<KeyframeId> beyond;
+  for (const KeyframeId id : rim) {
+    for (const Covisibility& neighbour : map.covisible_with(map.keyframe(id))) {
+      if (neighbour.shared < min_shared_points) break;
+      if (known.insert(neighbour.keyframe).second) beyond.push_back(neighbour.keyframe);
+    }
+  }
+  return beyond;
+}
+
 }  // namespace
 
 std::unordered_set<KeyframeId> LoopDetector::connected_with(const Map& map,
@@ -43,14 +58,7 @@ std::unordered_set<KeyframeId> LoopDetector::connected_with(const Map& map,
   }
   std::vector<KeyframeId> rim = {newest.id};
   for (int hop = 0; hop < kHops; ++hop) {
-    std::vector<KeyframeId> next;
-    for (const KeyframeId id : rim) {
-      for (const Covisibility& neighbour : map.covisible_with(map.keyframe(id))) {
-        if (neighbour.shared < config_.mapper.min_shared_points) break;
-        if (connected.insert(neighbour.keyframe).second) next.push_back(neighbour.keyframe);
-      }
-    }
-    rim = std::move(next);
+    rim = neighbours_beyond(map, rim, config_.mapper.min_shared_points, connected);
   }
   return connected;
 }
@@ -86,7 +94,7 @@ std::optional<VerifiedView> LoopDetector::look_up(
   std::size_t verified = 0;
   for (const PlaceCandidate& candidate : index.query(*newest.features, connected, kMinMatches)) {
     if (verified++ == kMaxVerified) break;
-    const auto view = verifier.verify(newest, candidate.keyframe);
+    auto view = verifier.verify(newest, candidate.keyframe);
     if (view && is_plausible(map, newest, *view)) return view;
   }
   return std::nullopt;
@@ -101,15 +109,16 @@ std::optional<VerifiedView> LoopDetector::follow_up(
   for (const auto& [id, keyframe] : map.keyframes()) {
     if (connected.contains(id)) continue;
     const double change =
-        view_change(keyframe.T_world_camera.inverse() * T_world_camera, kSceneDepth_m);
+        view_change(keyframe.T_world_camera.inverse() * T_world_camera, kSceneDepth);
     if (change >= least) continue;
     least = change;
     nearest = &keyframe;
   }
   if (nearest == nullptr) return std::nullopt;
   const LoopVerifier verifier(model_, config_.loop, map);
-  const auto view = verifier.verify_near(newest, nearest->id, T_world_camera);
-  return view && is_plausible(map, newest, *view) ? view : std::nullopt;
+  auto view = verifier.verify_near(newest, nearest->id, T_world_camera);
+  if (view && !is_plausible(map, newest, *view)) view.reset();
+  return view;
 }
 
 bool LoopDetector::is_plausible(const Map& map,
@@ -127,8 +136,8 @@ void LoopDetector::weigh(const Keyframe& newest, const VerifiedView& view) {
     // Compared at the camera: there the two have to agree, not at the world's far origin.
     const SE3 T_foretold_camera = suspicion_->T_corrected_world * newest.T_world_camera;
     const SE3 difference = T_foretold_camera.inverse() * view.T_world_camera;
-    if (difference.translation().norm() > kMaxDisagreement_m ||
-        difference.angle() > kMaxDisagreement_rad) {
+    if (difference.translation().norm() > kMaxDisagreementMetres ||
+        difference.angle() > kMaxDisagreementRadians) {
       suspicion_.reset();
     }
   }

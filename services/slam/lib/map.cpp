@@ -74,6 +74,16 @@ void Map::remove_observation(PointId id, KeyframeId keyframe) {
   if (point.observations.empty()) points_.erase(id);
 }
 
+bool Map::remove_observation_if_any(PointId id, KeyframeId keyframe) {
+  const MapPoint* point = find_point(id);
+  if (point == nullptr) return false;
+  const bool is_there =
+      std::any_of(point->observations.begin(), point->observations.end(),
+                  [&](const Observation& observation) { return observation.keyframe == keyframe; });
+  if (is_there) remove_observation(id, keyframe);
+  return is_there;
+}
+
 void Map::remove_point(PointId id) {
   const auto place = points_.find(id);
   if (place == points_.end()) return;

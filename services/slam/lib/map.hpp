@@ -61,6 +61,8 @@ class Map {
   static bool add_observation(MapPoint& point, Keyframe& keyframe, int feature);
   /// Takes an observation out, and the point with it when none is left.
   void remove_observation(PointId id, KeyframeId keyframe);
+  /// The same where there may be no such observation any more; says whether there was.
+  bool remove_observation_if_any(PointId id, KeyframeId keyframe);
   void remove_point(PointId id);
   void remove_keyframe(KeyframeId id);
   /// Gives the observations of `from` to `to` where its keyframes do not see `to`; removes `from`.

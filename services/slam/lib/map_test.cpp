@@ -4,6 +4,7 @@
 
 #include "services/slam/lib/keyframe_policy.hpp"
 #include "services/slam/lib/map_culling.hpp"
+#include "services/slam/lib/map_motion.hpp"
 #include "services/slam/lib/snapshot_builder.hpp"
 #include "services/slam/lib/synthetic_scene.hpp"
 
@@ -52,6 +53,53 @@ TEST_F(MapTest, KeepsBothEndsOfAnObservationInStep) {
   map_.remove_keyframe(1);
   EXPECT_EQ(map_.find_point(points[1]), nullptr) << "no observation is left of it";
   EXPECT_EQ(map_.find_point(points[0])->observations.size(), 1U);
+}
+
+TEST_F(MapTest, TakesOutAnObservationThatMayBeGone) {
+  Keyframe& first = add_keyframe(0, 0.0, {});
+  const auto points = add_points(first, 0, 2);
+  add_keyframe(1, 0.1, points);
+  EXPECT_TRUE(map_.remove_observation_if_any(points[0], 1));
+  EXPECT_FALSE(map_.remove_observation_if_any(points[0], 1));
+  EXPECT_FALSE(map_.remove_observation_if_any(points[0], 5));
+  map_.remove_point(points[1]);
+  EXPECT_FALSE(map_.remove_observation_if_any(points[1], 0));
+  EXPECT_EQ(map_.find_point(points[0])->observations.size(), 1U);
+}
+
+TEST_F(MapTest, MovesPointsAlongWithTheKeyframeThatMadeThem) {
+  Keyframe& first = add_keyframe(0, 0.0, {});
+  const auto old_points = add_points(first, 0, 1);
+  Keyframe& second = add_keyframe(1, 0.5, old_points);
+  const auto new_points = add_points(second, 1, 1);
+  add_keyframe(2, 0.7, new_points);
+  const Eigen::Vector3d old_position = map_.find_point(old_points[0])->position;
+  const Eigen::Vector3d new_position = map_.find_point(new_points[0])->position;
+  move_map(map_, model_,
+           {{0, map_.keyframe(0).T_world_camera}, {1, synthetic::pose_at(0.5, 0.0, 0.3)}});
+  EXPECT_TRUE(map_.find_point(old_points[0])->position.isApprox(old_position));
+  EXPECT_TRUE(map_.find_point(new_points[0])
+                  ->position.isApprox(new_position + Eigen::Vector3d(0.0, 0.0, 0.3)));
+  EXPECT_TRUE(
+      map_.keyframe(2).T_world_camera.translation().isApprox(Eigen::Vector3d(0.7, 0.0, 0.3)))
+      << "a keyframe without a target goes along with the one before";
+}
+
+TEST_F(MapTest, RecallsKeyframesWithTheirNeighbours) {
+  Keyframe& first = add_keyframe(0, 0.0, {});
+  const auto points = add_points(first, 0, 20);
+  add_keyframe(1, 0.1, points);
+  Keyframe& far = add_keyframe(2, 9.0, {});
+  add_points(far, 0, 20);
+  add_keyframe(3, 20.0, {});
+  const LocalMapSnapshot snapshot = build_recall_snapshot(map_, MapperConfig{}, 3, {2, 0});
+  EXPECT_EQ(snapshot.newest, 3U);
+  EXPECT_EQ(snapshot.recalled, (std::vector<KeyframeId>{2, 0}));
+  EXPECT_NE(snapshot.find_keyframe(0), nullptr);
+  EXPECT_NE(snapshot.find_keyframe(1), nullptr) << "shares points with a recalled one";
+  EXPECT_NE(snapshot.find_keyframe(2), nullptr);
+  EXPECT_EQ(snapshot.find_keyframe(3), nullptr);
+  EXPECT_EQ(snapshot.points.size(), 40U);
 }
 
 TEST_F(MapTest, JoinsNeitherATakenNorABannedFeature) {

@@ -165,11 +165,11 @@ void PlaceIndex::remove(KeyframeId id) {
   const auto place = slot_of_.find(id);
   if (place == slot_of_.end()) return;
   const std::uint16_t slot = place->second;
+  const auto is_leaving = [slot](const Entry& entry) { return entry.slot == slot; };
   for (const Descriptor& descriptor : slots_[slot].features->descriptors) {
     const Hash hashed = hash(descriptor);
     for (std::size_t table = 0; table < kTables; ++table) {
-      entry_count_ -= std::erase_if(bucket(table, hashed),
-                                    [slot](const Entry& entry) { return entry.slot == slot; });
+      entry_count_ -= std::erase_if(bucket(table, hashed), is_leaving);
     }
   }
   slots_[slot] = {};
@@ -227,22 +227,29 @@ std::vector<std::uint16_t> PlaceIndex::best_slots(const std::vector<Vote>& votes
   return slots;
 }
 
+/// Counts the votes for a keyframe that whole descriptors confirm.
+PlaceCandidate PlaceIndex::check(std::uint16_t slot,
+                                 const Features& features,
+                                 const std::vector<Vote>& votes) const {
+  const std::vector<Descriptor>& theirs = slots_[slot].features->descriptors;
+  PlaceCandidate candidate{.keyframe = slots_[slot].id};
+  for (const Vote& vote : votes) {
+    if (vote.slot != slot) continue;
+    const Descriptor& asked = features.descriptors[vote.asked];
+    if (hamming_distance(asked, theirs[vote.feature]) > kMaxDistance) continue;
+    ++candidate.matches;
+    candidate.score += vote.weight;
+  }
+  return candidate;
+}
+
 std::vector<PlaceCandidate> PlaceIndex::query(const Features& features,
                                               const std::unordered_set<KeyframeId>& exclude,
                                               int min_matches) const {
   const std::vector<Vote> votes = vote(features, exclude);
   std::vector<PlaceCandidate> candidates;
   for (const std::uint16_t slot : best_slots(votes)) {
-    const std::vector<Descriptor>& theirs = slots_[slot].features->descriptors;
-    PlaceCandidate candidate{.keyframe = slots_[slot].id};
-    for (const Vote& vote : votes) {
-      if (vote.slot != slot ||
-          hamming_distance(features.descriptors[vote.asked], theirs[vote.feature]) > kMaxDistance) {
-        continue;
-      }
-      ++candidate.matches;
-      candidate.score += vote.weight;
-    }
+    const PlaceCandidate candidate = check(slot, features, votes);
     if (candidate.matches >= min_matches) candidates.push_back(candidate);
   }
   std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {

@@ -86,6 +86,9 @@ class PlaceIndex {
   [[nodiscard]] std::vector<Vote> vote(const Features& features,
                                        const std::unordered_set<KeyframeId>& exclude) const;
   [[nodiscard]] std::vector<std::uint16_t> best_slots(const std::vector<Vote>& votes) const;
+  [[nodiscard]] PlaceCandidate check(std::uint16_t slot,
+                                     const Features& features,
+                                     const std::vector<Vote>& votes) const;
   void thin_out();
 
   std::size_t max_keyframes_;

@@ -59,11 +59,11 @@ Matrix66 bracket(const Vector6d& twist) {
 
 Matrix66 adjoint(const SE3& T_a_b) {
   const Eigen::Matrix3d R_a_b = T_a_b.rotation_matrix();
-  Matrix66 Ad = Matrix66::Zero();
-  Ad.topLeftCorner<3, 3>() = R_a_b;
-  Ad.topRightCorner<3, 3>() = skew(T_a_b.translation()) * R_a_b;
-  Ad.bottomRightCorner<3, 3>() = R_a_b;
-  return Ad;
+  Matrix66 matrix = Matrix66::Zero();
+  matrix.topLeftCorner<3, 3>() = R_a_b;
+  matrix.topRightCorner<3, 3>() = skew(T_a_b.translation()) * R_a_b;
+  matrix.bottomRightCorner<3, 3>() = R_a_b;
+  return matrix;
 }
 
 Matrix66 inverse_left_jacobian(const Vector6d& twist) {
@@ -76,13 +76,15 @@ Matrix66 inverse_left_jacobian(const Vector6d& twist) {
 
 bool relax(PoseGraph& graph, const std::function<bool()>& must_stop) {
   if (graph.edges.empty()) return false;
-  ceres::Problem problem;
-  auto* manifold = new LeftTwistManifold;  // owned by problem
+  LeftTwistManifold manifold;
+  ceres::Problem::Options ownership;
+  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
   std::vector<PoseBlock> poses;
   poses.reserve(graph.nodes.size());
   for (const PoseGraph::Node& node : graph.nodes) {
     poses.push_back(to_pose_block(node.T_world_camera.inverse()));
-    problem.AddParameterBlock(poses.back().data(), 7, manifold);
+    problem.AddParameterBlock(poses.back().data(), 7, &manifold);
     if (node.fixed) problem.SetParameterBlockConstant(poses.back().data());
   }
   for (const PoseGraph::Edge& edge : graph.edges) {

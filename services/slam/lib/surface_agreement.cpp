@@ -36,6 +36,12 @@ Judgement judge(const Surface& surface,
   return nearest < inverse_depth ? Judgement::kSeenThrough : Judgement::kHidden;
 }
 
+void note(Judgement judgement, SurfaceAgreement& agreement) {
+  if (judgement == Judgement::kAgrees) ++agreement.agreeing;
+  if (judgement == Judgement::kSeenThrough) ++agreement.seen_through;
+  if (judgement == Judgement::kHidden) ++agreement.hidden;
+}
+
 }  // namespace
 
 SurfaceAgreement compare_surfaces(const CameraModel& camera,
@@ -52,19 +58,7 @@ SurfaceAgreement compare_surfaces(const CameraModel& camera,
       const Eigen::Vector2d pixel(column * kSurfaceCell, row * kSurfaceCell);
       const Eigen::Vector3d p_b = T_b_a * camera.unproject(pixel, 1.0 / inverse_depth);
       if (p_b.z() < kMinDepth) continue;
-      switch (judge(seen_by_b, camera.project(p_b), 1.0 / p_b.z(), kTolerance * sigma)) {
-        case Judgement::kAgrees:
-          ++agreement.agreeing;
-          break;
-        case Judgement::kSeenThrough:
-          ++agreement.seen_through;
-          break;
-        case Judgement::kHidden:
-          ++agreement.hidden;
-          break;
-        case Judgement::kNothing:
-          break;
-      }
+      note(judge(seen_by_b, camera.project(p_b), 1.0 / p_b.z(), kTolerance * sigma), agreement);
     }
   }
   return agreement;
