@@ -80,6 +80,7 @@ OfflineRun run_offline(const std::filesystem::path& folder, const OfflineOptions
     recorder.record(result);
     if (!result.T_world_camera) {
       run.failures.push_back("frame " + std::to_string(i) + ": " + result.reason);
+      if (result.state == TrackingState::kLost) mapper.recall(*features);
     }
     const bool is_keyframe = result.keyframe.has_value();
     map_frame(mapper, result, mask);
