@@ -55,12 +55,13 @@ std::vector<KeyframeId> around(const Map& map, const std::vector<KeyframeId>& re
     neighbours.push_back(map.covisible_with(map.keyframe(id)));
     most = std::max(most, neighbours.back().size());
   }
-  for (std::size_t i = 0; i < most; ++i) {
-    for (const auto& of_one : neighbours) {
-      if (i < of_one.size() && known.insert(of_one[i].keyframe).second) {
-        order.push_back(of_one[i].keyframe);
-      }
+  const auto add = [&](const std::vector<Covisibility>& of_one, std::size_t i) {
+    if (i < of_one.size() && known.insert(of_one[i].keyframe).second) {
+      order.push_back(of_one[i].keyframe);
     }
+  };
+  for (std::size_t i = 0; i < most; ++i) {
+    for (const auto& of_one : neighbours) add(of_one, i);
   }
   return order;
 }
