@@ -33,10 +33,11 @@ endfunction()
 # Only THREADED ones are built with the thread sanitizer: in the others it has nothing to find.
 function(tsg_unit_test name)
   cmake_parse_arguments(ARG "THREADED" "" "SOURCES;LINK" ${ARGN})
+  tsg_add_test_executable(${name} "${ARG_SOURCES}" "${ARG_LINK}")
   if(TSG_SANITIZE STREQUAL "thread" AND NOT ARG_THREADED)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
     return()
   endif()
-  tsg_add_test_executable(${name} "${ARG_SOURCES}" "${ARG_LINK}")
   gtest_discover_tests(${name} PROPERTIES LABELS unit DISCOVERY_TIMEOUT 60)
 endfunction()
 
