@@ -41,7 +41,8 @@ Eigen::Vector3f BouncedLightField::position(std::size_t index) const {
 }
 
 std::size_t BouncedLightField::index_of(const Eigen::Vector3i& cell) const {
-  return static_cast<std::size_t>((cell.z() * size_.y() + cell.y()) * size_.x() + cell.x());
+  const int index = (cell.z() * size_.y() + cell.y()) * size_.x() + cell.x();
+  return static_cast<std::size_t>(index);
 }
 
 BouncedLightField::Probe BouncedLightField::measure(const Layer& layer,

@@ -33,6 +33,16 @@ float compressed(float light) {
   return 1.0F - (1.0F - kKnee) * std::exp(-(light - kKnee) / (1.0F - kKnee));
 }
 
+void encode_row(const cv::Mat& radiance, float exposure, int y, cv::Mat& codes) {
+  static const auto kTable = make_code_table();
+  const auto* const light = radiance.ptr<float>(y);
+  auto* const code = codes.ptr<std::uint8_t>(y);
+  for (int i = 0; i < 3 * radiance.cols; ++i) {
+    const float level = compressed(exposure * light[i]);
+    code[i] = kTable.at(static_cast<std::size_t>(std::min(level, 1.0F) * kCodes));
+  }
+}
+
 /// Four big lamps above and around the thing, so that all sides get some light.
 std::vector<Lamp> studio_lamps(const Mesh& mesh) {
   Eigen::Vector3f low = Eigen::Vector3f::Constant(1e9F);
@@ -58,17 +68,9 @@ std::vector<Lamp> studio_lamps(const Mesh& mesh) {
 }  // namespace
 
 cv::Mat to_srgb(const cv::Mat& radiance, float exposure) {
-  static const auto kTable = make_code_table();
   cv::Mat codes(radiance.size(), CV_8UC3);
   cv::parallel_for_(cv::Range(0, radiance.rows), [&](const cv::Range& rows) {
-    for (int y = rows.start; y < rows.end; ++y) {
-      const auto* const light = radiance.ptr<float>(y);
-      auto* const code = codes.ptr<std::uint8_t>(y);
-      for (int i = 0; i < 3 * radiance.cols; ++i) {
-        const float level = compressed(exposure * light[i]);
-        code[i] = kTable.at(static_cast<std::size_t>(std::min(level, 1.0F) * kCodes));
-      }
-    }
+    for (int y = rows.start; y < rows.end; ++y) encode_row(radiance, exposure, y, codes);
   });
   return codes;
 }

@@ -57,10 +57,10 @@ class RayScene {
   [[nodiscard]] bool is_blocked(const Ray& ray) const;
   [[nodiscard]] bool is_empty() const;
 
-  RayScene(RayScene&&) noexcept;
-  RayScene& operator=(RayScene&&) noexcept;
-  RayScene(const RayScene&) = delete;
-  RayScene& operator=(const RayScene&) = delete;
+  RayScene(RayScene&& other) noexcept;
+  RayScene& operator=(RayScene&& other) noexcept;
+  RayScene(const RayScene& other) = delete;
+  RayScene& operator=(const RayScene& other) = delete;
   ~RayScene();
 
  private:
