@@ -1,6 +1,7 @@
 #include "common/render/stage.hpp"
 
 #include <algorithm>
+#include <array>
 #include <opencv2/core/utility.hpp>
 
 #include "common/core/check.hpp"
@@ -10,7 +11,7 @@ namespace tsg::render {
 namespace {
 
 constexpr float kLightGridM = 0.16F;    // light changes little within a hand's length
-constexpr float kShadowReachM = 2.5F;   // farther from a body its shadow is too soft to be seen
+constexpr float kShadowReachM = 1.0F;   // farther from a body its shadow is too soft to be seen
 constexpr float kContactReachM = 0.6F;  // within it a body takes bounced light away as well
 constexpr int kBodyShadowSamples = 4;
 constexpr int kContactRays = 12;
@@ -139,15 +140,15 @@ Eigen::Vector3f Stage::light_on_fixed(std::size_t index) const {
              lamp_in_sight(lamps_[share.lamp], point, bodies_.rays, kBodyShadowSamples, salt);
   }
   if (distance_m > kContactReachM) return light + baked_.bounced[index];
-  int open = 0;
+  std::array<Ray, kContactRays> rays;
+  std::array<bool, kContactRays> blocked{};
   for (int k = 0; k < kContactRays; ++k) {
-    const Eigen::Vector3f direction =
-        cosine_direction(point.normal, spread_point(k, kContactRays, salt));
-    open +=
-        bodies_.rays.is_blocked({point.position + 2e-3F * point.normal, direction, kContactReachM})
-            ? 0
-            : 1;
+    rays.at(static_cast<std::size_t>(k)) = {
+        point.position + 2e-3F * point.normal,
+        cosine_direction(point.normal, spread_point(k, kContactRays, salt)), kContactReachM};
   }
+  bodies_.rays.find_blocked(rays, blocked);
+  const auto open = std::ranges::count(blocked, false);
   return light + baked_.bounced[index] * (static_cast<float>(open) / kContactRays);
 }
 
