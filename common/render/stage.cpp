@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <opencv2/core/utility.hpp>
 
 #include "common/core/check.hpp"
+#include "common/render/parallel.hpp"
 #include "common/render/sampling.hpp"
 
 namespace tsg::render {
@@ -104,20 +104,19 @@ void Stage::find_unknown(const Layer& layer,
 void Stage::light_up(std::span<const Sighting> seen) {
   find_unknown(fixed_, seen, false, fixed_light_);
   find_unknown(bodies_, seen, true, body_light_);
+  for_each_index(fixed_light_.unknown.size() + body_light_.unknown.size(),
+                 [this](std::size_t i) { light_unknown(i); });
+}
+
+void Stage::light_unknown(std::size_t i) {
   const std::size_t on_fixed = fixed_light_.unknown.size();
-  const std::size_t count = on_fixed + body_light_.unknown.size();
-  cv::parallel_for_(cv::Range(0, static_cast<int>(count)), [&](const cv::Range& range) {
-    for (auto i = static_cast<std::size_t>(range.start); i < static_cast<std::size_t>(range.end);
-         ++i) {
-      if (i < on_fixed) {
-        const std::size_t point = fixed_light_.unknown[i];
-        fixed_light_.light[point] = light_on_fixed(point);
-      } else {
-        const std::size_t point = body_light_.unknown[i - on_fixed];
-        body_light_.light[point] = light_on_body(point);
-      }
-    }
-  });
+  if (i < on_fixed) {
+    const std::size_t point = fixed_light_.unknown[i];
+    fixed_light_.light[point] = light_on_fixed(point);
+  } else {
+    const std::size_t point = body_light_.unknown[i - on_fixed];
+    body_light_.light[point] = light_on_body(point);
+  }
 }
 
 float Stage::distance_to_bodies(const Eigen::Vector3f& position) const {

@@ -57,8 +57,10 @@ class Stage {
   };
 
   void measure(Extent& extent) const;
-  [[nodiscard]] Eigen::Vector3f light_on_fixed(std::size_t point) const;
-  [[nodiscard]] Eigen::Vector3f light_on_body(std::size_t point) const;
+  /// Computes entry i of what is unknown, first on fixed parts, then on bodies.
+  void light_unknown(std::size_t i);
+  [[nodiscard]] Eigen::Vector3f light_on_fixed(std::size_t index) const;
+  [[nodiscard]] Eigen::Vector3f light_on_body(std::size_t index) const;
   [[nodiscard]] float distance_to_bodies(const Eigen::Vector3f& position) const;
 
   Layer fixed_;
