@@ -58,16 +58,16 @@ void paint_soft_parts(const Look& look, const FacePainter& face) {
   face.ellipse({0.0, 1.588}, {0.015, 0.004}, tinted(look.skin, {0.74, 0.74, 0.80}));
   face.ellipse({0.0, 1.549}, {0.020, 0.004}, tinted(look.skin, {0.80, 0.80, 0.85}));
   if (!look.has_beard) return;
-  const auto stubble = [&look](double hair) {
+  const auto hair_on_skin = [&look](double hair) {
     const cv::Vec3b mix = look.skin * (1.0 - hair) + look.hair_colour * hair;
     return cv::Scalar(mix[0], mix[1], mix[2]);
   };
-  face.ellipse({0.0, 1.528}, {0.070, 0.044}, stubble(0.55));
-  face.ellipse({0.0, 1.531}, {0.036, 0.020}, stubble(0.8));
+  face.ellipse({0.0, 1.528}, {0.070, 0.044}, hair_on_skin(0.55));
+  face.ellipse({0.0, 1.531}, {0.036, 0.020}, hair_on_skin(0.8));
   for (const double side : {-1.0, 1.0}) {
     face.ellipse({side * 0.042, 1.592}, {0.023, 0.024}, tinted(look.skin, {1.0, 1.0, 1.0}));
   }
-  face.ellipse({0.0, 1.580}, {0.026, 0.006}, stubble(0.8));
+  face.ellipse({0.0, 1.580}, {0.026, 0.006}, hair_on_skin(0.8));
 }
 
 void paint_eye(const Look& look, double side, const FacePainter& face) {
