@@ -37,6 +37,7 @@ struct MapPoint {
 /// A frame kept in the map with its pose.
 struct Keyframe {
   KeyframeId id = 0;
+  MapPart part = 0;  ///< each part has a world of its own
   std::shared_ptr<const Features> features;
   SE3 T_world_camera;
   std::vector<PointId> points;  ///< per feature, or kNoPoint
