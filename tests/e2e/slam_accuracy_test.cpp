@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/dataset/evaluation.hpp"
-#include "tests/e2e/offline_slam.hpp"
+#include "services/slam/offline/offline_slam.hpp"
 #include "tests/support/shared_dir.hpp"
 
 namespace tsg {
@@ -17,6 +17,12 @@ using testing::IsEmpty;
 
 std::filesystem::path sequence(const std::string& name) {
   return test::shared_dir() / "data" / name;
+}
+
+OfflineRun run(const std::string& name, const OfflineOptions& options = {}) {
+  return value_or_throw(open_tum_folder(sequence(name)).and_then([&](const TumFolder& folder) {
+    return run_offline(folder, options);
+  }));
 }
 
 /// ATE RMSE in metres of the corrected trajectory.
@@ -32,9 +38,9 @@ struct Case {
 };
 
 void follow(const Case& expected) {
-  const OfflineRun run = run_offline(sequence(expected.name), expected.options);
-  EXPECT_THAT(run.failures, IsEmpty());
-  const double ate_m = ate_of(run, expected.name);
+  const OfflineRun result = run(expected.name, expected.options);
+  EXPECT_THAT(result.failures, IsEmpty());
+  const double ate_m = ate_of(result, expected.name);
   testing::Test::RecordProperty("ate_m", std::to_string(ate_m));
   EXPECT_LE(ate_m, expected.most_ate_m);
 }
@@ -47,8 +53,8 @@ TEST(SlamAccuracy, AmongWalkingPeopleWithTrueMasks) {
 TEST(SlamAccuracy, AmongWalkingPeopleWithMasksEightFramesLateOfEveryFifthFrame) {
   TSG_REQUIRE_SHARED("data/rendered/walking_xyz");
   OfflineOptions options;
-  options.mask_delay_frames = 8;
-  options.mask_every_frames = 5;
+  options.masks.delay_frames = 8;
+  options.masks.every_frames = 5;
   follow({.name = "rendered/walking_xyz", .options = options, .most_ate_m = 0.01});
 }
 
@@ -69,10 +75,10 @@ TEST(SlamAccuracy, ClosesALoopWhereTheLocalMapHasForgottenTheStart) {
   const std::string name = "rendered/static_room";
   OfflineOptions options;
   options.slam.mapper.snapshot_keyframes = 6;
-  const OfflineRun run = run_offline(sequence(name), options);
-  EXPECT_THAT(run.failures, IsEmpty());
-  EXPECT_GE(run.map_corrections, 2U) << "pose graph and full adjustment";
-  EXPECT_LE(ate_of(run, name), 0.01);
+  const OfflineRun result = run(name, options);
+  EXPECT_THAT(result.failures, IsEmpty());
+  EXPECT_GE(result.map_corrections, 2U) << "pose graph and full adjustment";
+  EXPECT_LE(ate_of(result, name), 0.01);
 }
 
 TEST(SlamAccuracy, BesideAChairThatIsDragged) {
@@ -88,15 +94,15 @@ TEST(SlamAccuracy, OnRealDistortedImages) {
 TEST(SlamAccuracy, RoundABareCabinetWithTwoThirdsOfASecondBetweenFrames) {
   TSG_REQUIRE_SHARED("data/tum_bits/fr3_cabinet_sub58");
   const std::string name = "tum_bits/fr3_cabinet_sub58";
-  const OfflineRun run = run_offline(sequence(name), {});
-  EXPECT_LE(run.failures.size(), 3U) << "of " << run.frames;
-  EXPECT_LE(ate_of(run, name), 0.045);
+  const OfflineRun result = run(name);
+  EXPECT_LE(result.failures.size(), 3U) << "of " << result.frames;
+  EXPECT_LE(ate_of(result, name), 0.045);
 }
 
 TEST(SlamAccuracy, TwoRunsOverTheSameImagesAgreeInEveryBit) {
   TSG_REQUIRE_SHARED("data/tum_bits/fr1_desk_9");
-  const OfflineRun first = run_offline(sequence("tum_bits/fr1_desk_9"), {});
-  const OfflineRun second = run_offline(sequence("tum_bits/fr1_desk_9"), {});
+  const OfflineRun first = run("tum_bits/fr1_desk_9");
+  const OfflineRun second = run("tum_bits/fr1_desk_9");
   ASSERT_EQ(first.corrected.size(), second.corrected.size());
   for (std::size_t i = 0; i < first.corrected.size(); ++i) {
     const SE3& one = first.corrected[i].T_world_camera;

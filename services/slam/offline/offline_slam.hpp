@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/core/error.hpp"
+#include "common/dataset/tum_folder.hpp"
+#include "common/geometry/stamped_pose.hpp"
+#include "services/slam/lib/local_mapper.hpp"
+#include "services/slam/lib/slam_config.hpp"
+#include "services/slam/lib/tracker.hpp"
+#include "services/slam/offline/mask_source.hpp"
+#include "services/slam/offline/stage_clock.hpp"
+
+namespace tsg {
+
+/// How the core is run over a recorded sequence.
+struct OfflineOptions {
+  SlamConfig slam = {};
+  MaskOptions masks = {};
+  std::size_t take_every_frames = 1;  ///< the others are skipped, as if the camera were faster
+  int laps = 1;  ///< how often the sequence is gone through; its path should be closed for more
+};
+
+/// One frame as it has just been done.
+struct OfflineFrame {
+  std::uint64_t seq = 0;  ///< counts on over laps
+  int lap = 0;
+  TrackingState state = TrackingState::kInitialising;
+  bool is_keyframe = false;
+  FrameCost cost = {};
+  std::size_t map_keyframes = 0;
+  std::size_t map_points = 0;
+};
+
+/// What the caller adds: libraries have no clock.
+struct OfflineHooks {
+  std::function<std::int64_t()> now_ns = {};  ///< measures stages; empty: nothing is measured
+  std::function<void(const OfflineFrame&)> on_frame = {};
+};
+
+struct OfflineRun {
+  Trajectory live;                      ///< as tracked
+  Trajectory corrected;                 ///< by the keyframes' final poses
+  std::vector<KeyframePose> keyframes;  ///< all that there ever were
+  std::size_t frames = 0;
+  std::vector<std::string> failures;  ///< frame and reason of each frame without a pose
+  std::size_t map_keyframes = 0;      ///< that are left in the map
+  std::size_t map_points = 0;
+  std::uint64_t map_corrections = 0;  ///< by loops
+  std::size_t loops = 0;              ///< closed
+};
+
+/// Runs tracking and mapping in turn over a sequence, as slam does in lockstep: no bus, no threads.
+/// OpenCV's own threads are switched off for the whole process (cv::setNumThreads(1)), so that the
+/// CPU time of the calling thread is all there is. Errors are those of reading the sequence.
+[[nodiscard]] Expected<OfflineRun> run_offline(const TumFolder& sequence,
+                                               const OfflineOptions& options,
+                                               const OfflineHooks& hooks = {});
+
+}  // namespace tsg
