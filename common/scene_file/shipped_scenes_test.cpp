@@ -26,9 +26,9 @@ TEST(ShippedScenes, AllLoadAndSayWhatTheyTest) {
     EXPECT_FALSE(scene->description.empty()) << file;
     names.insert(scene->name);
   }
-  for (const char* name :
-       {"office_walking_xyz", "office_walking_static", "office_walking_halfsphere",
-        "office_sitting_xyz", "moved_chair", "crowd", "corridor_loop", "dark_blackout", "demo"}) {
+  for (const char* name : {"office_walking_xyz", "office_walking_static",
+                           "office_walking_halfsphere", "office_sitting_xyz", "moved_chair",
+                           "crowd", "corridor_loop", "dark_blackout", "scale_round", "demo"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
 }
@@ -44,6 +44,17 @@ TEST(ShippedScenes, CorridorLoopLeadsSixtyMetresAndBack) {
   EXPECT_GE(length_m, 60.0);
   const double apart_m = (waypoints.back().position_m - waypoints.front().position_m).norm();
   EXPECT_LT(apart_m, 2.5) << "it ends in view of where it began";
+}
+
+TEST(ShippedScenes, ScaleRoundEndsWhereItBegins) {
+  const auto scene = load_scene(kSource / "config/scenes/scale_round.yaml");
+  ASSERT_TRUE(scene) << scene.error().message;
+  const auto& first = scene->camera.waypoints.front();
+  const auto& last = scene->camera.waypoints.back();
+  EXPECT_EQ(first.position_m, last.position_m);
+  EXPECT_EQ(first.look_at_m, last.look_at_m);
+  EXPECT_EQ(last.at_s, scene->duration_s);
+  EXPECT_TRUE(scene->people.empty()) << "who would jump back with each lap";
 }
 
 TEST(Manual, ShowsASceneThatLoads) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/core/error.hpp"
+#include "services/tsgctl/bench_command.hpp"
 #include "services/tsgctl/doctor_command.hpp"
 #include "services/tsgctl/echo_command.hpp"
 #include "services/tsgctl/eval_command.hpp"
@@ -33,6 +34,7 @@ int main(int argc, char** argv) {
   });
   tsg::add_run_command(app);
   tsg::add_eval_command(app);
+  tsg::add_bench_command(app);
   tsg::add_simulate_command(app);
   tsg::add_status_command(app);
   tsg::add_topics_command(app);

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdint>
-#include <cstdlib>
 #include <iomanip>
 #include <limits>
 #include <sstream>
 #include <vector>
 
-#include "common/app/child_process.hpp"
-#include "common/core/atomic_file.hpp"
-#include "common/dataset/text_file.hpp"
+#include "services/tsgctl/gnuplot.hpp"
 
 namespace tsg {
 namespace {
@@ -118,16 +114,6 @@ void write_ranges(std::ostream& script, const AbsoluteError& error, const Axes& 
   write("yrange", axes.vertical);
 }
 
-/// Text for a gnuplot string in single quotes.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char character : text) {
-    if (character == '\'') result += '\'';
-    if (character != '\n') result += character;
-  }
-  return result + "'";
-}
-
 std::string subtitle(const Summary& error_m) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(1) << "ATE RMSE " << 1000.0 * error_m.rmse
@@ -139,8 +125,8 @@ std::string subtitle(const Summary& error_m) {
 void write_style(std::ostream& script, const TrajectoryPlot& plot, const Axes& axes) {
   // The scale of colour ends where the few worst poses would take all contrast from the others.
   const double top_mm = std::max(1000.0 * plot.error.translation_m.p99, 1e-3);
-  script << "set title " << quoted(plot.title) << " . \"\\n\" . "
-         << quoted(subtitle(plot.error.translation_m)) << " noenhanced font ',15'\n"
+  script << "set title " << gnuplot_text(plot.title) << " . \"\\n\" . "
+         << gnuplot_text(subtitle(plot.error.translation_m)) << " noenhanced font ',15'\n"
          << "set xlabel '" << kAxisNames.at(static_cast<std::size_t>(axes.horizontal)) << " [m]'\n"
          << "set ylabel '" << kAxisNames.at(static_cast<std::size_t>(axes.vertical)) << " [m]'\n"
          << "set cblabel 'position error [mm]' offset 1.5,0\n"
@@ -160,7 +146,7 @@ std::string plot_script(const TrajectoryPlot& plot, const fs::path& png) {
   std::ostringstream script;
   script << std::setprecision(9) << "set encoding utf8\n"
          << "set terminal pngcairo rounded size 1200,900 font 'sans,13' background '#ffffff'\n"
-         << "set output " << quoted(png.string()) << '\n';
+         << "set output " << gnuplot_text(png.string()) << '\n';
   write_truth(script, covered_truth(plot), axes);
   write_estimate(script, plot.error, axes);
   write_start(script, plot.error, axes);
@@ -172,59 +158,8 @@ std::string plot_script(const TrajectoryPlot& plot, const fs::path& png) {
   return script.str();
 }
 
-namespace {
-
-/// A folder that goes away with this object.
-class ScratchFolder {
- public:
-  ScratchFolder() : path_((fs::temp_directory_path() / "tsgctl_plot_XXXXXX").string()) {
-    if (::mkdtemp(path_.data()) == nullptr) path_.clear();
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ScratchFolder(ScratchFolder&&) = delete;
-  ScratchFolder& operator=(ScratchFolder&&) = delete;
-
-  [[nodiscard]] fs::path path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-Expected<void> run_gnuplot(const fs::path& script, const fs::path& log) {
-  auto gnuplot = ChildProcess::spawn(
-      {.program = "gnuplot", .arguments = {script.string()}, .output_file = log});
-  if (!gnuplot) {
-    return make_error(ExitCode::kUnavailable,
-                      "plots need gnuplot, which is not installed; apt-get install gnuplot-nox");
-  }
-  const auto& end = gnuplot->wait(std::chrono::seconds(60));
-  if (end && end->is_success()) return {};
-  const auto said = read_text_file(log, "");
-  return make_error(ExitCode::kUnavailable,
-                    "gnuplot failed: " + (end ? end->describe() : "no end after 60 s") + ": " +
-                        said.value_or("") + "; reinstall gnuplot-nox");
-}
-
-}  // namespace
-
 Expected<void> plot_trajectory(const TrajectoryPlot& plot, const fs::path& png) {
-  const ScratchFolder scratch;
-  if (scratch.path().empty()) {
-    return make_error(ExitCode::kCannotWrite, "cannot make a folder in " +
-                                                  fs::temp_directory_path().string() +
-                                                  "; free some disk space or set TMPDIR");
-  }
-  const fs::path picture = scratch.path() / "plot.png";
-  const fs::path script = scratch.path() / "plot.gp";
-  return write_file_atomically(script, plot_script(plot, picture))
-      .and_then([&] { return run_gnuplot(script, scratch.path() / "gnuplot.log"); })
-      .and_then([&] { return read_text_file(picture, "reinstall gnuplot-nox"); })
-      .and_then([&](const std::string& bytes) { return write_file_atomically(png, bytes); });
+  return draw_png([&](const fs::path& picture) { return plot_script(plot, picture); }, png);
 }
 
 }  // namespace tsg
