@@ -2,7 +2,6 @@
 // and the fix; and no process is left behind.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/mount.h>
 
 #include <csignal>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <set>
 
 #include "tests/e2e/tsgctl_run.hpp"
+#include "tests/support/tiny_disk.hpp"
 #include "tests/support/wait.hpp"
 
 namespace tsg::test {
@@ -128,37 +128,6 @@ TEST(RunFailure, FileThatIsNoNetworkIsNamed) {
   expect_failure(simulated_room(), {"--segmentation", "model", "--model", model.string()},
                  ExitCode::kBadData, HasSubstr("model.onnx"));
 }
-
-/// A disk of its own, of a given size, as long as the object lives.
-class TinyDisk {
- public:
-  explicit TinyDisk(const std::string& size) {
-    fs::create_directories(path());
-    const std::string options = "size=" + size;
-    is_mounted_ = mount("tmpfs", path().c_str(), "tmpfs", 0, options.c_str()) == 0;
-  }
-  ~TinyDisk() {
-    if (is_mounted_) umount2(path().c_str(), MNT_DETACH);
-  }
-  TinyDisk(const TinyDisk&) = delete;
-  TinyDisk& operator=(const TinyDisk&) = delete;
-  TinyDisk(TinyDisk&&) = delete;
-  TinyDisk& operator=(TinyDisk&&) = delete;
-
-  [[nodiscard]] bool is_mounted() const { return is_mounted_; }
-  [[nodiscard]] fs::path path() const { return folder_ / "disk"; }
-  /// Writes until nothing fits any more.
-  void fill() const {
-    std::ofstream filler(path() / "filler", std::ios::binary);
-    const std::string block(65536, 'x');
-    while (filler << block << std::flush) {
-    }
-  }
-
- private:
-  TempFolder folder_;
-  bool is_mounted_ = false;
-};
 
 ProgramResult run_into(const fs::path& out) {
   return run_program(TSG_BIN_DIR "/tsgctl",
