@@ -36,6 +36,7 @@ struct TumFolder {
 [[nodiscard]] Expected<std::vector<ListedImage>> read_image_list(const std::filesystem::path& list);
 
 /// Reads camera.yaml, rgb.txt and depth.txt and pairs the images (associate()); no image is opened.
+/// Folders named as in the TUM benchmark need no camera.yaml (tum_benchmark_camera()).
 /// kMissingInput names the folder, list or image that is not there, kEmptyInput a list without
 /// entries or lists without a pair.
 [[nodiscard]] Expected<TumFolder> open_tum_folder(

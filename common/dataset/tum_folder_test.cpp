@@ -53,6 +53,23 @@ TEST_F(TumFolders, FramesComeByTimeWithTheirPixels) {
   }
 }
 
+TEST_F(TumFolders, NamedAsInTheBenchmarkNeedNoCameraFile) {
+  std::filesystem::remove(folder_ / "camera.yaml");
+  expect_error(open_tum_folder(folder_.path()), ExitCode::kMissingInput, "camera.yaml");
+  const std::filesystem::path named = folder_ / "rgbd_dataset_freiburg2_xyz";
+  std::filesystem::create_directories(named);
+  for (const char* name : {"rgb", "depth", "rgb.txt", "depth.txt"}) {
+    std::filesystem::rename(folder_ / name, named / name);
+  }
+  for (const char* spelling : {"", "/", "/../rgbd_dataset_freiburg2_xyz/."}) {
+    const auto folder = open_tum_folder(named.string() + spelling);
+    ASSERT_TRUE(folder) << folder.error().message;
+    EXPECT_DOUBLE_EQ(folder->camera.model.fx, 520.9);
+  }
+  folder_.write("rgbd_dataset_freiburg2_xyz/camera.yaml", sequence_.camera_yaml());
+  EXPECT_DOUBLE_EQ(value_or_throw(open_tum_folder(named)).camera.model.fx, 50.0);
+}
+
 TEST_F(TumFolders, ListsMayBeUnsortedWithCommentsBlankLinesAndRepeats) {
   const auto line = [&](int frame) {
     return sequence_.stamp_text(frame) + " rgb/" + sequence_.stamp_text(frame) + ".png\n";
