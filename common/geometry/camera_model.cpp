@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace tsg {
 
@@ -36,6 +37,17 @@ std::vector<std::string> CameraModel::problems() const {
     found.emplace_back("distortion coefficients must be finite");
   }
   return found;
+}
+
+std::string CameraModel::describe() const {
+  std::ostringstream text;
+  text.precision(10);  // so that two that differ never look alike
+  text << width << 'x' << height << ", fx " << fx << " fy " << fy << " cx " << cx << " cy " << cy;
+  if (is_distorted()) {
+    text << ", distortion";
+    for (const double k : distortion) text << ' ' << k;
+  }
+  return text.str();
 }
 
 }  // namespace tsg

@@ -39,6 +39,9 @@ struct CameraModel {
   /// What makes the model unusable, a sentence each; empty where it is sound.
   [[nodiscard]] std::vector<std::string> problems() const;
 
+  /// For messages: "640x480, fx 525.0 fy 525.0 cx 319.5 cy 239.5", and the distortion if any.
+  [[nodiscard]] std::string describe() const;
+
   bool operator==(const CameraModel&) const = default;
 };
 

@@ -45,5 +45,14 @@ TEST(CameraModel, KnowsWhetherItIsDistorted) {
   EXPECT_TRUE(camera.is_distorted());
 }
 
+TEST(CameraModel, DescribesItselfForMessages) {
+  CameraModel camera = vga_camera();
+  camera.fx = 525.123456;
+  EXPECT_NE(camera.describe().find("640x480, fx 525.123456"), std::string::npos);
+  EXPECT_EQ(camera.describe().find("distortion"), std::string::npos);
+  camera.distortion[1] = -0.25;
+  EXPECT_NE(camera.describe().find("distortion 0 -0.25 0 0 0"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tsg

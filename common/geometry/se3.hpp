@@ -18,6 +18,14 @@ class SE3 {
       : rotation_(rotation.normalized()), translation_(translation) {}
   SE3(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation)
       : SE3(Eigen::Quaterniond(rotation), translation) {}
+  /// The very numbers of an SE3 that was taken apart; `rotation` must be of unit length.
+  [[nodiscard]] static SE3 of_unit_rotation(const Eigen::Quaterniond& rotation,
+                                            const Eigen::Vector3d& translation) {
+    SE3 T_a_b;
+    T_a_b.rotation_ = rotation;
+    T_a_b.translation_ = translation;
+    return T_a_b;
+  }
 
   [[nodiscard]] const Eigen::Quaterniond& rotation() const { return rotation_; }
   [[nodiscard]] const Eigen::Vector3d& translation() const { return translation_; }

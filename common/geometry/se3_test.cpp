@@ -57,5 +57,15 @@ TEST(SE3, SaysWhenItIsNotFinite) {
                    .is_finite());
 }
 
+TEST(SE3, KeepsEveryBitWhenItIsPutTogetherAgain) {
+  std::mt19937 generator(11);
+  for (int i = 0; i < kTrials; ++i) {
+    const SE3 T_a_b = SE3::exp(random_twist(generator, 3.0));
+    const SE3 again = SE3::of_unit_rotation(T_a_b.rotation(), T_a_b.translation());
+    EXPECT_EQ(again.rotation().coeffs(), T_a_b.rotation().coeffs());
+    EXPECT_EQ(again.translation(), T_a_b.translation());
+  }
+}
+
 }  // namespace
 }  // namespace tsg

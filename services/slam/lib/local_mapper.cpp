@@ -11,6 +11,7 @@
 #include "services/slam/lib/local_window.hpp"
 #include "services/slam/lib/loop_closer.hpp"
 #include "services/slam/lib/map.hpp"
+#include "services/slam/lib/map_contents.hpp"
 #include "services/slam/lib/map_culling.hpp"
 #include "services/slam/lib/point_fusion.hpp"
 #include "services/slam/lib/snapshot_builder.hpp"
@@ -19,14 +20,6 @@ namespace tsg {
 namespace {
 
 constexpr std::size_t kMaxRecalled = 4;  // places tried for a lost frame; bounds its time
-
-/// A keyframe that was taken out, relative to one that was not then.
-struct CulledKeyframe {
-  KeyframeId parent = 0;
-  SE3 T_parent_camera;
-  std::uint64_t seq = 0;
-  std::int64_t stamp_ns = 0;
-};
 
 }  // namespace
 
@@ -38,12 +31,14 @@ struct LocalMapper::Impl {
   void note_sightings(const std::vector<PointSighting>& sightings);
   void cull_keyframe(KeyframeId id);
   [[nodiscard]] SE3 pose_of(KeyframeId id) const;
+  void publish(LocalMapSnapshot snapshot);
 
   SlamConfig config;
   ObservationModel model;
   Map map;
   LoopCloser closer;
   KeyframeId newest = 0;
+  KeyframeId first_of_session = 0;     ///< earlier ones come from a map that was kept
   std::vector<PointId> recent_points;  ///< on trial, see cull_recent_points()
   std::map<KeyframeId, CulledKeyframe> culled;
   std::uint64_t version = 0;
@@ -95,8 +90,27 @@ SE3 LocalMapper::Impl::pose_of(KeyframeId id) const {
   return map.keyframe(id).T_world_camera * T_ancestor_camera;
 }
 
+void LocalMapper::Impl::publish(LocalMapSnapshot snapshot) {
+  snapshot.version = ++version;
+  snapshot.corrections = corrections;
+  published = std::make_shared<const LocalMapSnapshot>(std::move(snapshot));
+}
+
 LocalMapper::LocalMapper(const SlamConfig& config, const CameraModel& camera)
     : impl_(std::make_unique<Impl>(config, camera)) {}
+LocalMapper::LocalMapper(const SlamConfig& config, MapContents&& contents)
+    : impl_(std::make_unique<Impl>(config, contents.camera)) {
+  TSG_CHECK(!contents.keyframes.empty());
+  impl_->map = Map(std::move(contents.keyframes), std::move(contents.points), contents.next_point);
+  impl_->culled = std::move(contents.culled);
+  impl_->recent_points = std::move(contents.recent_points);
+  impl_->newest = contents.newest;
+  impl_->first_of_session = contents.newest + 1;
+  const bool may_adjust = !config.tracker.localisation_only;
+  impl_->closer.take_over(impl_->map, std::move(contents.loops),
+                          may_adjust && contents.is_adjusting);
+}
+
 LocalMapper::~LocalMapper() = default;
 LocalMapper::LocalMapper(LocalMapper&&) noexcept = default;
 LocalMapper& LocalMapper::operator=(LocalMapper&&) noexcept = default;
@@ -159,7 +173,7 @@ bool LocalMapper::apply_mask(const InstanceSegmentation& mask) {
   const auto place = std::find_if(keyframes.rbegin(), keyframes.rend(), [&](const auto& entry) {
     return entry.second.features->seq == mask.frame_seq;
   });
-  if (place == keyframes.rend()) return false;
+  if (place == keyframes.rend() || place->first < impl_->first_of_session) return false;
   impl_->published.reset();
   Keyframe& keyframe = *impl_->map.find_keyframe(place->first);
   const cv::Mat verdicts = exact_verdicts(mask, impl_->config.dynamic_filter);
@@ -181,11 +195,14 @@ void LocalMapper::recall(const Features& view) {
     if (recalled.size() < kMaxRecalled) recalled.push_back(candidate.keyframe);
   }
   if (recalled.empty()) return;
-  LocalMapSnapshot snapshot =
-      build_recall_snapshot(impl_->map, impl_->config.mapper, impl_->newest, recalled);
-  snapshot.version = ++impl_->version;
-  snapshot.corrections = impl_->corrections;
-  impl_->published = std::make_shared<const LocalMapSnapshot>(std::move(snapshot));
+  impl_->publish(build_recall_snapshot(impl_->map, impl_->config.mapper, impl_->newest, recalled));
+}
+
+void LocalMapper::centre_on(KeyframeId id) {
+  if (impl_->map.find_keyframe(id) == nullptr) return;
+  LocalMapSnapshot snapshot = build_snapshot(impl_->map, impl_->config.mapper, id);
+  snapshot.newest = impl_->newest;
+  impl_->publish(std::move(snapshot));
 }
 
 std::shared_ptr<const LocalMapSnapshot> LocalMapper::snapshot() {
@@ -194,9 +211,7 @@ std::shared_ptr<const LocalMapSnapshot> LocalMapper::snapshot() {
   if (!impl_->map.keyframes().empty()) {
     snapshot = build_snapshot(impl_->map, impl_->config.mapper, impl_->newest);
   }
-  snapshot.version = ++impl_->version;
-  snapshot.corrections = impl_->corrections;
-  impl_->published = std::make_shared<const LocalMapSnapshot>(std::move(snapshot));
+  impl_->publish(std::move(snapshot));
   return impl_->published;
 }
 
@@ -212,6 +227,23 @@ std::vector<KeyframePose> LocalMapper::keyframe_poses() const {
   sorted.reserve(poses.size());
   for (const auto& [id, pose] : poses) sorted.push_back(pose);
   return sorted;
+}
+
+MapContents LocalMapper::contents() const {
+  MapContents contents{.camera = impl_->model.camera(),
+                       .keyframes = {},
+                       .points = impl_->map.points_by_id(),
+                       .culled = impl_->culled,
+                       .loops = impl_->closer.loops(),
+                       .recent_points = {},
+                       .newest = impl_->newest,
+                       .next_point = impl_->map.next_point(),
+                       .is_adjusting = impl_->closer.is_adjusting()};
+  for (const auto& [id, keyframe] : impl_->map.keyframes()) contents.keyframes.push_back(keyframe);
+  for (const PointId id : impl_->recent_points) {
+    if (impl_->map.find_point(id) != nullptr) contents.recent_points.push_back(id);
+  }
+  return contents;
 }
 
 }  // namespace tsg

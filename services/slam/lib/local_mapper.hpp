@@ -13,6 +13,8 @@
 
 namespace tsg {
 
+struct MapContents;
+
 /// Where a keyframe is, by the latest optimisation.
 struct KeyframePose {
   KeyframeId id = 0;
@@ -27,6 +29,9 @@ struct KeyframePose {
 class LocalMapper {
  public:
   LocalMapper(const SlamConfig& config, const CameraModel& camera);
+  /// Goes on with a map that was kept. Its keyframes are of an earlier session, whose masks and
+  /// frame numbers have nothing to do with those to come.
+  LocalMapper(const SlamConfig& config, MapContents&& contents);
   ~LocalMapper();
   LocalMapper(LocalMapper&& other) noexcept;
   LocalMapper& operator=(LocalMapper&& other) noexcept;
@@ -58,11 +63,18 @@ class LocalMapper {
   /// map that looks like it, until the map changes. As it was where nothing does.
   void recall(const Features& view);
 
+  /// Makes the snapshot the part of the map around keyframe `id`, until the map changes: for a
+  /// camera that moves in a map that does not grow. Does nothing where there is no such keyframe.
+  void centre_on(KeyframeId id);
+
   /// The local map as it is now; the same object until the map changes.
   [[nodiscard]] std::shared_ptr<const LocalMapSnapshot> snapshot();
 
   /// Every keyframe ever inserted, oldest first; culled ones move along with a neighbour.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
+
+  /// A copy of the whole map; what is large in it, the features, is shared.
+  [[nodiscard]] MapContents contents() const;
 
  private:
   struct Impl;

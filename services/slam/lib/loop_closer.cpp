@@ -1,5 +1,7 @@
 #include "services/slam/lib/loop_closer.hpp"
 
+#include <utility>
+
 namespace tsg {
 namespace {
 
@@ -22,6 +24,12 @@ void LoopCloser::remove(KeyframeId id, KeyframeId parent, const SE3& T_parent_ca
     if (loop.b == id) loop = {loop.a, parent, loop.T_a_b * T_parent_camera.inverse()};
   }
   std::erase_if(loops_, [](const LoopEdge& loop) { return loop.a == loop.b; });
+}
+
+void LoopCloser::take_over(const Map& map, std::vector<LoopEdge> loops, bool is_adjusting) {
+  for (const auto& [id, keyframe] : map.keyframes()) add(keyframe);
+  loops_ = std::move(loops);
+  if (is_adjusting) adjustment_.emplace(map, model_);
 }
 
 bool LoopCloser::close(Map& map, KeyframeId newest, const std::function<bool()>& must_stop) {

@@ -22,6 +22,12 @@ class LoopCloser {
   /// A keyframe leaves the map; what is known of it passes on to `parent`.
   void remove(KeyframeId id, KeyframeId parent, const SE3& T_parent_camera);
 
+  /// The loops that were closed so far.
+  [[nodiscard]] const std::vector<LoopEdge>& loops() const { return loops_; }
+  /// Takes over a map that was kept: its keyframes, its loops, and whether a full adjustment is
+  /// due.
+  void take_over(const Map& map, std::vector<LoopEdge> loops, bool is_adjusting);
+
   /// Looks whether `newest` closes a loop, and if so corrects the map. True if it was moved.
   bool close(Map& map, KeyframeId newest, const std::function<bool()>& must_stop);
 

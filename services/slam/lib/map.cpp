@@ -38,6 +38,22 @@ std::size_t most_typical(const std::vector<const Descriptor*>& descriptors) {
 
 }  // namespace
 
+Map::Map(std::vector<Keyframe> keyframes, std::vector<MapPoint> points, PointId next_point)
+    : next_point_(next_point) {
+  for (Keyframe& keyframe : keyframes) {
+    keyframe.points.assign(keyframe.features->size(), kNoPoint);
+    add_keyframe(std::move(keyframe));
+  }
+  for (MapPoint& point : points) {
+    for (const Observation& observation : point.observations) {
+      Keyframe& keyframe = keyframes_.at(observation.keyframe);
+      keyframe.points.at(static_cast<std::size_t>(observation.feature)) = point.id;
+    }
+    const PointId id = point.id;
+    TSG_CHECK(id < next_point_ && points_.emplace(id, std::move(point)).second);
+  }
+}
+
 Keyframe& Map::add_keyframe(Keyframe keyframe) {
   const KeyframeId id = keyframe.id;
   const auto [position, inserted] = keyframes_.emplace(id, std::move(keyframe));
@@ -149,6 +165,20 @@ std::vector<Covisibility> Map::covisible_with(const Keyframe& keyframe) const {
       neighbours.begin(), neighbours.end(),
       [](const Covisibility& a, const Covisibility& b) { return a.shared > b.shared; });
   return neighbours;
+}
+
+std::vector<MapPoint> Map::points_by_id() const {
+  std::vector<PointId> ids;
+  for (const auto& [keyframe_id, keyframe] : keyframes_) {
+    ids.insert(ids.end(), keyframe.points.begin(), keyframe.points.end());
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  if (!ids.empty() && ids.back() == kNoPoint) ids.pop_back();
+  std::vector<MapPoint> points;
+  points.reserve(ids.size());
+  for (const PointId id : ids) points.push_back(points_.at(id));
+  return points;
 }
 
 MapPoint* Map::find_point(PointId id) {

@@ -54,6 +54,11 @@ struct Covisibility {
 /// in step here and nowhere else. Owned by LocalMapper.
 class Map {
  public:
+  Map() = default;
+  /// The map that these are the parts of. What keyframes say of their points is not read: it
+  /// follows from the observations. `next_point`: the id that the next new point gets.
+  Map(std::vector<Keyframe> keyframes, std::vector<MapPoint> points, PointId next_point);
+
   Keyframe& add_keyframe(Keyframe keyframe);
   /// A new point first seen by a feature of `keyframe`.
   PointId add_point(const Eigen::Vector3d& position, Keyframe& keyframe, int feature);
@@ -81,6 +86,9 @@ class Map {
   [[nodiscard]] const Keyframe& keyframe(KeyframeId id) const { return keyframes_.at(id); }
   [[nodiscard]] const std::map<KeyframeId, Keyframe>& keyframes() const { return keyframes_; }
   [[nodiscard]] std::size_t point_count() const { return points_.size(); }
+  [[nodiscard]] PointId next_point() const { return next_point_; }
+  /// Copies of all points, sorted by id.
+  [[nodiscard]] std::vector<MapPoint> points_by_id() const;
 
  private:
   std::map<KeyframeId, Keyframe> keyframes_;

@@ -77,10 +77,14 @@ std::array<Pattern, kDirections> make_patterns() {
   return patterns;
 }
 
-const Pattern& pattern_for(float angle) {
+const std::array<Pattern, kDirections>& all_patterns() {
   static const std::array<Pattern, kDirections> kPatterns = make_patterns();
+  return kPatterns;
+}
+
+const Pattern& pattern_for(float angle) {
   const auto step = std::lround(angle * (kDirections / (2.0 * std::numbers::pi)));
-  return kPatterns[static_cast<std::size_t>(step + kDirections) % kDirections];
+  return all_patterns()[static_cast<std::size_t>(step + kDirections) % kDirections];
 }
 
 /// Half width of the circular patch at each row.
@@ -127,6 +131,22 @@ Descriptor oriented_brief(const cv::Mat& blurred, int x, int y, float angle) {
     descriptor[word] = bits;
   }
   return descriptor;
+}
+
+std::uint32_t descriptor_pattern_id() {
+  std::uint32_t hash = 2166136261U;  // FNV-1a
+  const auto add = [&hash](std::int8_t value) {
+    hash = (hash ^ static_cast<std::uint8_t>(value)) * 16777619U;
+  };
+  for (const Pattern& pattern : all_patterns()) {
+    for (const Test& test : pattern) {
+      for (const Offset& offset : {test.first, test.second}) {
+        add(offset.x);
+        add(offset.y);
+      }
+    }
+  }
+  return hash;
 }
 
 }  // namespace tsg

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 
 #include "services/slam/lib/descriptor.hpp"
@@ -16,5 +17,8 @@ inline constexpr int kPatchRadius = 15;
 /// BRIEF (Calonder et al. 2010) with its test pattern turned by `angle`, as in ORB (Rublee et al.
 /// 2011). `blurred` is the image after a slight blur, without which single pixels decide.
 [[nodiscard]] Descriptor oriented_brief(const cv::Mat& blurred, int x, int y, float angle);
+
+/// A number that changes with the test pattern: descriptors of different ones do not compare.
+[[nodiscard]] std::uint32_t descriptor_pattern_id();
 
 }  // namespace tsg

@@ -37,10 +37,10 @@ std::optional<Fix> PoseFinder::by_last_frame(const PoseQuery& query) const {
   const FrameSearch search(model_, query.map, query.features);
   const int enough = kEnoughMatches * config_.tracker.min_inliers;
   begin(TrackingStage::kMatch);
-  FrameMatches matches = search.match_last_frame(query.last, LastFramePoints::kMapped,
+  FrameMatches matches = search.match_last_frame(*query.last, LastFramePoints::kMapped,
                                                  query.T_predicted_world, kPredictedRadius);
   if (matches.count() < enough) {
-    matches = search.match_last_frame(query.last, LastFramePoints::kWithDepth,
+    matches = search.match_last_frame(*query.last, LastFramePoints::kWithDepth,
                                       query.T_predicted_world, kSurpriseRadius);
   }
   if (matches.count() < config_.tracker.min_inliers) return std::nullopt;
@@ -53,16 +53,17 @@ std::optional<Fix> PoseFinder::by_last_frame(const PoseQuery& query) const {
 /// The pose by the depth images, with what few corners there are.
 std::optional<Fix> PoseFinder::by_surface(const PoseQuery& query) const {
   // Later the camera may be anywhere, and rooms are full of shapes that look alike.
-  if (query.features.stamp_ns - query.last.features->stamp_ns > kMaxSurfaceGapNs) {
+  if (query.last == nullptr ||
+      query.features.stamp_ns - query.last->features->stamp_ns > kMaxSurfaceGapNs) {
     return std::nullopt;
   }
   begin(TrackingStage::kOptimise);
-  const auto prior = pose_by_surface(model_, config_.features, query.last, query.features,
+  const auto prior = pose_by_surface(model_, config_.features, *query.last, query.features,
                                      query.T_predicted_world);
   if (!prior) return std::nullopt;
   begin(TrackingStage::kMatch);
   const FrameSearch search(model_, query.map, query.features);
-  FrameMatches matches = search.match_last_frame(query.last, LastFramePoints::kWithDepth,
+  FrameMatches matches = search.match_last_frame(*query.last, LastFramePoints::kWithDepth,
                                                  prior->T_camera_world, kSurfaceRadius);
   begin(TrackingStage::kOptimise);
   const PoseEstimate estimate = matches.optimise(model_, prior->T_camera_world, *prior);
@@ -78,7 +79,7 @@ std::vector<const SnapshotKeyframe*> PoseFinder::choose_keyframes(const PoseQuer
     if (keyframe != nullptr) chosen.push_back(keyframe);
   };
   for (const KeyframeId id : query.map.recalled) choose(query.map.find_keyframe(id));
-  choose(query.map.find_keyframe(query.last.reference));
+  if (query.last != nullptr) choose(query.map.find_keyframe(query.last->reference));
   const auto& keyframes = query.map.keyframes;
   for (std::size_t i = 0; i < std::min(kKeyframesPerAttempt, keyframes.size()); ++i) {
     const std::size_t back = next_attempt_++ % keyframes.size();

@@ -22,9 +22,9 @@ struct Fix {
 struct PoseQuery {
   const Features& features;
   const LocalMapSnapshot& map;
-  const TrackedFrame& last;  ///< tracked before, its pose in `map`
+  const TrackedFrame* last;  ///< tracked before, its pose in `map`; null: never yet in this map
   SE3 T_predicted_world;     ///< camera from world, by the motion until then
-  bool is_lost = false;      ///< not tracked since `last`: only the map can tell
+  bool is_lost = false;      ///< not tracked since `last`, or never: only the map can tell
 };
 
 /// Finds the pose of a frame by the last frame, by the shape of the scene, or by keyframes.

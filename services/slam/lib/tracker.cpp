@@ -43,6 +43,7 @@ struct Tracker::Impl {
         finder(config, model, on_stage) {}
 
   void start_map(const std::shared_ptr<const Features>& features, TrackResult& result);
+  void enter_map(const LocalMapSnapshot& map);
   void follow_map(const LocalMapSnapshot& map);
   [[nodiscard]] SE3 predict(std::int64_t stamp_ns) const;
 
@@ -94,8 +95,17 @@ void Tracker::Impl::start_map(const std::shared_ptr<const Features>& features,
   result.keyframe = make_candidate();
 }
 
+/// The map was there before the camera: it is lost in it.
+void Tracker::Impl::enter_map(const LocalMapSnapshot& map) {
+  started = true;
+  lost = true;
+  next_keyframe = map.newest + 1;
+  corrections = map.corrections;
+}
+
 /// Brings the last pose to where mapping has moved its keyframe since.
 void Tracker::Impl::follow_map(const LocalMapSnapshot& map) {
+  if (!last) return;
   const SnapshotKeyframe* reference = map.find_keyframe(last->reference);
   if (reference == nullptr) return;
   const SE3 T_world_before = last->T_world_camera;
@@ -112,6 +122,7 @@ SE3 Tracker::Impl::predict(std::int64_t stamp_ns) const {
 }
 
 void Tracker::Impl::count_sightings(const Fix& fix) {
+  if (config.tracker.localisation_only) return;  // nobody would ever take them
   for (const PointId id : fix.in_view) {
     PointSighting& sighting = sightings[id];
     sighting.id = id;
@@ -139,9 +150,10 @@ void Tracker::Impl::accept(const std::shared_ptr<const Features>& features,
   // Before the first snapshot the first keyframe is where the world is.
   const SE3 T_world_reference = reference == nullptr ? SE3() : reference->T_world_camera;
   now.T_reference_camera = T_world_reference.inverse() * now.T_world_camera;
-  const double seconds = static_cast<double>(features->stamp_ns - last->features->stamp_ns) * 1e-9;
   twist_per_second = Vector6d::Zero();
   if (!lost) {
+    const auto since_last_ns = static_cast<double>(features->stamp_ns - last->features->stamp_ns);
+    const double seconds = since_last_ns * 1e-9;
     result.T_previous_camera = last->T_world_camera.inverse() * now.T_world_camera;
     if (seconds > 0.0) twist_per_second = result.T_previous_camera->log() / seconds;
   }
@@ -167,7 +179,7 @@ KeyframeId Tracker::Impl::choose_reference(const LocalMapSnapshot& map,
                                            const FrameMatches& matches) const {
   std::vector<PointId> seen = matches.points();
   std::sort(seen.begin(), seen.end());
-  KeyframeId best = last->reference;
+  KeyframeId best = last ? last->reference : map.newest;
   std::ptrdiff_t most = 0;
   for (const SnapshotKeyframe& keyframe : map.keyframes) {
     const auto shared =
@@ -184,6 +196,7 @@ KeyframeId Tracker::Impl::choose_reference(const LocalMapSnapshot& map,
 void Tracker::Impl::propose_keyframe(const LocalMapSnapshot& map,
                                      int inliers,
                                      TrackResult& result) {
+  if (config.tracker.localisation_only) return;
   const bool last_is_mapped = !map.keyframes.empty() && map.newest + 1 == next_keyframe;
   const SnapshotKeyframe* reference = map.find_keyframe(last->reference);
   if (!last_is_mapped || reference == nullptr) return;
@@ -239,24 +252,26 @@ TrackResult Tracker::track(const std::shared_ptr<const Features>& features,
                      .stamp_ns = features->stamp_ns,
                      .features = features->counts,
                      .mask_age_frames = features->mask_age_frames};
-  if (!impl_->started) {
+  if (!impl_->started && map.keyframes.empty()) {
     impl_->start_map(features, result);
     return result;
   }
+  if (!impl_->started) impl_->enter_map(map);
   impl_->follow_map(map);
   const std::optional<Fix> fix =
       impl_->finder.find({.features = *features,
                           .map = map,
-                          .last = *impl_->last,
+                          .last = impl_->last ? &*impl_->last : nullptr,
                           .T_predicted_world = impl_->predict(features->stamp_ns).inverse(),
                           .is_lost = impl_->lost});
   if (!fix) {
-    impl_->lose(result, "neither the last frame nor a keyframe matches the view");
+    impl_->lose(result, impl_->last ? "neither the last frame nor a keyframe matches the view"
+                                    : "looking for the place in the loaded map");
     return result;
   }
   result.matches = fix->matches.count();
   impl_->accept(features, map, *fix, result);
-  if (impl_->filter.has_new_mask()) {
+  if (impl_->filter.has_new_mask() && !impl_->config.tracker.localisation_only) {
     for (const SnapshotPoint& point : map.points) {
       if (impl_->filter.was_dynamic(point.position)) result.dynamic_points.push_back(point.id);
     }

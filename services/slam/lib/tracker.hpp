@@ -44,7 +44,9 @@ struct TrackResult {
                                                    ///< on dynamic instances once their mask came
 };
 
-/// Finds the camera's pose in the local map, frame by frame.
+/// Finds the camera's pose in the local map, frame by frame. Where `map` has keyframes before the
+/// first frame, the camera is lost in a known map and looks for its place there; else the first
+/// frame starts the map.
 /// Deterministic; not thread-safe: the tracking thread owns it.
 class Tracker {
  public:

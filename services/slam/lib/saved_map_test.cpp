@@ -1,0 +1,422 @@
+#include "services/slam/lib/saved_map.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "services/slam/lib/local_mapper.hpp"
+#include "services/slam/lib/map_encoding.hpp"
+#include "services/slam/lib/synthetic_scene.hpp"
+#include "services/slam/lib/tracker.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace tsg {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+SE3 on_path(int i) { return synthetic::pose_at(0.02 * i, 0.005 * i, 0.01 * i, 0.006 * i); }
+
+/// Tracking and mapping in turn.
+class System {
+ public:
+  explicit System(const SlamConfig& config = {})
+      : tracker_(config, synthetic::camera()), mapper_(config, synthetic::camera()) {}
+  System(const SlamConfig& config, MapContents&& contents)
+      : tracker_(config, contents.camera), mapper_(config, std::move(contents)) {}
+
+  TrackResult step(const RgbdFrame& frame) {
+    const auto features = tracker_.extract(frame, nullptr);
+    TrackResult result = tracker_.track(features, *mapper_.snapshot());
+    if (result.state == TrackingState::kLost) mapper_.recall(*features);
+    mapper_.remove_points(result.dynamic_points);
+    if (result.keyframe) {
+      mapper_.insert(KeyframeCandidate(*result.keyframe));
+      mapper_.refine({});
+    }
+    return result;
+  }
+  LocalMapper& mapper() { return mapper_; }
+
+ private:
+  Tracker tracker_;
+  LocalMapper mapper_;
+};
+
+const synthetic::Scene& room() {
+  static const synthetic::Scene kRoom = synthetic::Scene::room();
+  return kRoom;
+}
+
+TrackResult walk(System& system, int from, int to) {
+  TrackResult last;
+  for (int i = from; i < to; ++i) {
+    last = system.step(room().render(static_cast<std::uint64_t>(i), on_path(i)));
+  }
+  return last;
+}
+
+/// A small map of real features.
+const MapContents& example() {
+  static const MapContents kContents = [] {
+    System system;
+    walk(system, 0, 20);
+    return system.mapper().contents();
+  }();
+  return kContents;
+}
+
+/// The same with all else that a map can have.
+MapContents with_everything() {
+  MapContents contents = example();
+  const KeyframeId shift = contents.newest;
+  contents.loops.push_back({contents.keyframes.front().id, contents.newest, on_path(3)});
+  // Room for culled keyframes between those that are there.
+  contents.keyframes.back().id = contents.newest = shift + 2;
+  for (MapPoint& point : contents.points) {
+    for (Observation& seen : point.observations) {
+      if (seen.keyframe == shift) seen.keyframe = shift + 2;
+    }
+  }
+  contents.loops.back().b = contents.newest;
+  contents.culled[shift + 1] = {contents.newest, on_path(1), 71, 72};
+  contents.culled[shift] = {shift + 1, on_path(2), 61, 62};
+  contents.keyframes.front().part = 3;
+  contents.keyframes.front().banned[4] = contents.keyframes.front().points[4] == kNoPoint;
+  contents.is_adjusting = true;
+  return contents;
+}
+
+void expect_same(const SE3& a, const SE3& b) {
+  EXPECT_EQ(a.rotation().coeffs(), b.rotation().coeffs());
+  EXPECT_EQ(a.translation(), b.translation());
+}
+
+void expect_same(const Features& a, const Features& b) {
+  EXPECT_EQ(a.seq, b.seq);
+  EXPECT_EQ(a.stamp_ns, b.stamp_ns);
+  EXPECT_EQ(a.descriptors, b.descriptors);
+  EXPECT_EQ(a.surface.columns, b.surface.columns);
+  EXPECT_EQ(a.surface.inverse_depths, b.surface.inverse_depths);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a.items[i].pixel, b.items[i].pixel);
+    EXPECT_EQ(a.items[i].inverse_depth, b.items[i].inverse_depth);
+    EXPECT_EQ(a.items[i].angle, b.items[i].angle);
+    EXPECT_EQ(a.items[i].raw_x, b.items[i].raw_x);
+    EXPECT_EQ(a.items[i].raw_y, b.items[i].raw_y);
+    EXPECT_EQ(a.items[i].level, b.items[i].level);
+    EXPECT_EQ(a.items[i].verdict, b.items[i].verdict);
+  }
+}
+
+void expect_same(const LocalMapSnapshot& a, const LocalMapSnapshot& b) {
+  EXPECT_EQ(a.newest, b.newest);
+  EXPECT_EQ(a.map_keyframes, b.map_keyframes);
+  EXPECT_EQ(a.map_points, b.map_points);
+  ASSERT_EQ(a.keyframes.size(), b.keyframes.size());
+  for (std::size_t i = 0; i < a.keyframes.size(); ++i) {
+    EXPECT_EQ(a.keyframes[i].id, b.keyframes[i].id);
+    EXPECT_EQ(a.keyframes[i].points, b.keyframes[i].points);
+    expect_same(a.keyframes[i].T_world_camera, b.keyframes[i].T_world_camera);
+    expect_same(*a.keyframes[i].features, *b.keyframes[i].features);
+  }
+  ASSERT_EQ(a.points.size(), b.points.size());
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    EXPECT_EQ(a.points[i].id, b.points[i].id);
+    EXPECT_EQ(a.points[i].position, b.points[i].position);
+    EXPECT_EQ(a.points[i].normal, b.points[i].normal);
+    EXPECT_EQ(a.points[i].min_distance, b.points[i].min_distance);
+    EXPECT_EQ(a.points[i].max_distance, b.points[i].max_distance);
+    EXPECT_EQ(a.points[i].descriptor, b.points[i].descriptor);
+    EXPECT_EQ(a.points[i].observations, b.points[i].observations);
+  }
+}
+
+class SavedMap : public ::testing::Test {
+ protected:
+  MapContents saved_and_loaded(const MapContents& contents) {
+    const auto saved = save_map(path_, contents, {}, 1);
+    EXPECT_TRUE(saved) << saved.error().message;
+    auto loaded = load_map(path_, {});
+    EXPECT_TRUE(loaded) << loaded.error().message;
+    return std::move(loaded).value_or(MapContents{});
+  }
+  /// What is said of a map that `spoil` has changed.
+  static std::string refusal(const std::function<void(MapContents&)>& spoil) {
+    MapContents contents = with_everything();
+    spoil(contents);
+    const auto decoded =
+        decode_map(encode_map(contents), contents.camera, {.levels = 8, .scale_factor = 1.2});
+    if (decoded) return "it was accepted";
+    EXPECT_EQ(decoded.error().code, ExitCode::kBadData);
+    return decoded.error().message;
+  }
+
+  /// A map that was accepted must be one that a mapper can work with.
+  static void use(const MapContents& contents) {
+    LocalMapper mapper(SlamConfig{}, MapContents(contents));
+    EXPECT_FALSE(mapper.snapshot()->keyframes.empty());
+    EXPECT_GE(mapper.keyframe_poses().size(), contents.keyframes.size());
+  }
+
+  test::TempFolder folder_;
+  std::filesystem::path path_ = folder_ / "home.tsgmap";
+};
+
+TEST_F(SavedMap, GivesTheSameBytesWhenItIsSavedAgain) {
+  const MapContents contents = with_everything();
+  const MapContents loaded = saved_and_loaded(contents);
+  EXPECT_EQ(encode_map(loaded), encode_map(contents));
+  EXPECT_EQ(loaded.camera, contents.camera);
+  expect_same(loaded.keyframes.front().T_world_camera, contents.keyframes.front().T_world_camera);
+  EXPECT_TRUE(loaded.culled.at(contents.newest - 1).seq == 71);
+}
+
+TEST_F(SavedMap, GivesTheSameSnapshotAsTheMapThatWasSaved) {
+  System original;
+  walk(original, 0, 20);
+  LocalMapper restored(SlamConfig{}, saved_and_loaded(original.mapper().contents()));
+  expect_same(*restored.snapshot(), *original.mapper().snapshot());
+  const auto before = original.mapper().keyframe_poses();
+  const auto after = restored.keyframe_poses();
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(after[i].id, before[i].id);
+    expect_same(after[i].T_world_camera, before[i].T_world_camera);
+  }
+}
+
+TEST_F(SavedMap, IsTrackedInAndGrowsBitForBitAsTheOneThatWasSaved) {
+  System original;
+  walk(original, 0, 12);
+  MapContents loaded = saved_and_loaded(original.mapper().contents());
+  // Two trackers that both come into a map that is there already.
+  System one({}, original.mapper().contents());
+  System two({}, std::move(loaded));
+  int keyframes = 0;
+  for (int i = 11; i < 30; ++i) {
+    const RgbdFrame frame = room().render(static_cast<std::uint64_t>(i), on_path(i));
+    const TrackResult first = one.step(frame);
+    const TrackResult second = two.step(frame);
+    ASSERT_EQ(first.state, second.state) << i;
+    ASSERT_EQ(first.keyframe.has_value(), second.keyframe.has_value());
+    if (first.keyframe) {
+      ++keyframes;
+      EXPECT_GT(first.keyframe->id, original.mapper().contents().newest);
+    }
+    if (first.T_world_camera) expect_same(*first.T_world_camera, *second.T_world_camera);
+  }
+  EXPECT_GE(keyframes, 1) << "else nothing of mapping was compared";
+  EXPECT_EQ(encode_map(one.mapper().contents()), encode_map(two.mapper().contents()));
+}
+
+TEST_F(SavedMap, IsLookedForAndFoundInTheFrameOfTheOldMap) {
+  System system({}, saved_and_loaded(example()));
+  const RgbdFrame elsewhere = [] {
+    RgbdFrame frame = synthetic::Scene({}).render(0, SE3());
+    frame.colour = cv::Scalar::all(100);
+    frame.depth = cv::Scalar(10000);
+    return frame;
+  }();
+  const TrackResult lost = system.step(elsewhere);
+  EXPECT_EQ(lost.state, TrackingState::kLost);
+  EXPECT_THAT(lost.reason, HasSubstr("loaded map"));
+  EXPECT_FALSE(lost.keyframe);
+  const SE3 T_world_camera = synthetic::pose_at(0.1, 0.03, 0.02, 0.05);
+  TrackResult found = system.step(room().render(1, T_world_camera));
+  if (!found.T_world_camera) found = system.step(room().render(2, T_world_camera));
+  ASSERT_TRUE(found.T_world_camera) << found.reason;
+  EXPECT_TRUE(found.relocalised);
+  EXPECT_LT((T_world_camera.inverse() * *found.T_world_camera).translation().norm(), 0.01);
+}
+
+TEST_F(SavedMap, DoesNotChangeInLocalisationOnly) {
+  SlamConfig config;
+  config.tracker.localisation_only = true;
+  MapContents contents = example();
+  contents.is_adjusting = true;
+  System system(config, saved_and_loaded(contents));
+  const std::string before = encode_map(system.mapper().contents());
+  EXPECT_FALSE(system.mapper().is_adjusting());
+  int tracked = 0;
+  for (int i = 0; i < 40; ++i) {  // twice as far as the map goes
+    const TrackResult result =
+        system.step(room().render(static_cast<std::uint64_t>(i), on_path(i)));
+    EXPECT_FALSE(result.keyframe);
+    if (result.T_world_camera) ++tracked;
+  }
+  EXPECT_GE(tracked, 38);
+  EXPECT_EQ(encode_map(system.mapper().contents()), before);
+}
+
+TEST_F(SavedMap, KeepsItsKeyframesFromMasksOfTheNewSession) {
+  LocalMapper restored(SlamConfig{}, saved_and_loaded(example()));
+  InstanceSegmentation everything;
+  everything.frame_seq = example().keyframes.back().features->seq;
+  everything.labels = cv::Mat(480, 640, CV_8UC1, cv::Scalar(1));
+  everything.instances.push_back({.class_name = "person", .score = 0.9F, .box = {}});
+  const auto before = restored.snapshot();
+  EXPECT_FALSE(restored.apply_mask(everything));
+  EXPECT_EQ(restored.snapshot(), before);
+}
+
+TEST_F(SavedMap, ShowsThePartOfTheMapThatItIsCentredOn) {
+  SlamConfig config;
+  config.mapper.snapshot_keyframes = 1;
+  LocalMapper restored(config, saved_and_loaded(example()));
+  ASSERT_EQ(restored.snapshot()->keyframes.front().id, example().newest);
+  const KeyframeId first = example().keyframes.front().id;
+  restored.centre_on(first);
+  EXPECT_EQ(restored.snapshot()->keyframes.front().id, first);
+  EXPECT_EQ(restored.snapshot()->newest, example().newest);
+  const auto before = restored.snapshot();
+  restored.centre_on(example().newest + 7);
+  EXPECT_EQ(restored.snapshot(), before);
+}
+
+TEST_F(SavedMap, TellsWhatIsInTheFile) {
+  MapContents contents = with_everything();
+  const auto info = save_map(path_, contents, {}, 4711);
+  ASSERT_TRUE(info) << info.error().message;
+  const auto file = read_map_file(path_);
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->info, *info);
+  EXPECT_EQ(info->created_ns, 4711);
+  EXPECT_EQ(info->keyframes(), contents.keyframes.size());
+  EXPECT_EQ(info->points(), contents.points.size());
+  ASSERT_EQ(info->parts.size(), 2U);
+  EXPECT_EQ(info->parts[1].part, 3U);
+  EXPECT_EQ(info->parts[1].keyframes, 1U);
+  EXPECT_GT(info->parts[1].extent_m.x(), 1.0) << "the wall is some metres wide";
+}
+
+TEST_F(SavedMap, OfOtherFeatureSettingsIsRefusedWithBoth) {
+  ASSERT_TRUE(save_map(path_, example(), {}, 1));
+  FeatureConfig other;
+  other.levels = 6;
+  const auto loaded = load_map(path_, other);
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().code, ExitCode::kConfig);
+  EXPECT_THAT(loaded.error().message,
+              AllOf(HasSubstr("home.tsgmap"), HasSubstr("levels=8"), HasSubstr("levels=6")));
+}
+
+TEST_F(SavedMap, OfAnotherDescriptorIsRefused) {
+  const MapFileInfo info{.camera = synthetic::camera(),
+                         .features = {.levels = 8, .scale_factor = 1.2, .pattern = 1},
+                         .parts = {}};
+  ASSERT_TRUE(write_map_file(path_, info, encode_map(example())));
+  const auto loaded = load_map(path_, {});
+  ASSERT_FALSE(loaded);
+  EXPECT_THAT(loaded.error().message, HasSubstr("describes corners in another way"));
+}
+
+TEST_F(SavedMap, NothingThatContradictsItselfIsAccepted) {
+  const auto nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(refusal([](MapContents& map) { map.keyframes.clear(); }), HasSubstr("no keyframe"));
+  EXPECT_THAT(refusal([](MapContents& map) { std::swap(map.points[0], map.points[1]); }),
+              HasSubstr("out of order"));
+  EXPECT_THAT(refusal([](MapContents& map) { std::swap(map.keyframes[0], map.keyframes[1]); }),
+              HasSubstr("out of order"));
+  EXPECT_THAT(refusal([](MapContents& map) { map.next_point = 1; }), HasSubstr("not given"));
+  EXPECT_THAT(refusal([](MapContents& map) { map.newest += 1; }), HasSubstr("newest"));
+  EXPECT_THAT(refusal([](MapContents& map) { map.loops[0].a = 99'999; }), HasSubstr("loop"));
+  EXPECT_THAT(refusal([](MapContents& map) { map.recent_points = {map.next_point}; }),
+              HasSubstr("on trial"));
+  EXPECT_THAT(refusal([&](MapContents& map) { map.points[5].position.y() = nan; }),
+              HasSubstr("no place"));
+}
+
+TEST_F(SavedMap, NoObservationLeadsAstray) {
+  const auto first = [](MapContents& map) -> Observation& { return map.points[0].observations[0]; };
+  EXPECT_THAT(refusal([](MapContents& map) { map.points[0].observations.back().keyframe = 5000; }),
+              HasSubstr("not there"));
+  EXPECT_THAT(refusal([&](MapContents& map) { first(map).feature = -1; }), HasSubstr("feature"));
+  EXPECT_THAT(refusal([&](MapContents& map) { first(map).feature = 15'000; }),
+              HasSubstr("feature"));
+  EXPECT_THAT(refusal([&](MapContents& map) { map.points[1].observations[0] = first(map); }),
+              HasSubstr("shares a feature"));
+  EXPECT_THAT(refusal([&](MapContents& map) {
+                const auto feature = static_cast<std::size_t>(first(map).feature);
+                for (Keyframe& keyframe : map.keyframes) keyframe.banned[feature] = true;
+              }),
+              HasSubstr("dynamic"));
+  EXPECT_THAT(refusal([&](MapContents& map) { map.points[0].observations.clear(); }),
+              HasSubstr("no keyframe"));
+  EXPECT_THAT(refusal([&](MapContents& map) {
+                map.points[0].observations.push_back(map.points[0].observations[0]);
+              }),
+              HasSubstr("out of order"));
+}
+
+TEST_F(SavedMap, CulledKeyframesThatLeadNowhereOrInACircleAreRefused) {
+  EXPECT_THAT(refusal([](MapContents& map) { map.culled.begin()->second.parent = 77'777; }),
+              HasSubstr("leads nowhere"));
+  EXPECT_THAT(refusal([](MapContents& map) {
+                map.culled.rbegin()->second.parent = map.culled.begin()->first;
+              }),
+              HasSubstr("leads nowhere"));
+  EXPECT_THAT(refusal([](MapContents& map) { map.culled[map.newest] = {}; }),
+              HasSubstr("leads nowhere"));
+}
+
+TEST_F(SavedMap, FeaturesThatCannotBeAreRefused) {
+  const auto spoilt = [](const std::function<void(Features&)>& spoil) {
+    return refusal([&](MapContents& map) {
+      auto features = std::make_shared<Features>(*map.keyframes[0].features);
+      spoil(*features);
+      map.keyframes[0].features = features;
+    });
+  };
+  const float infinite = std::numeric_limits<float>::infinity();
+  EXPECT_THAT(spoilt([](Features& f) { f.items[3].level = 8; }), HasSubstr("pyramid"));
+  EXPECT_THAT(spoilt([](Features& f) { f.items[3].raw_x = 640; }), HasSubstr("outside"));
+  EXPECT_THAT(spoilt([](Features& f) { f.items[3].raw_y = -1; }), HasSubstr("outside"));
+  EXPECT_THAT(spoilt([&](Features& f) { f.items[3].pixel.x() = infinite; }), HasSubstr("outside"));
+  EXPECT_THAT(spoilt([](Features& f) { f.items[3].inverse_depth = -1.0F; }), HasSubstr("depth"));
+  EXPECT_THAT(spoilt([&](Features& f) { f.surface.inverse_depths[9] = infinite; }),
+              HasSubstr("depth"));
+  EXPECT_THAT(spoilt([](Features& f) { f.surface.columns += 1; }), HasSubstr("surface"));
+  EXPECT_THAT(spoilt([](Features& f) { f.items[3].verdict = static_cast<FeatureVerdict>(3); }),
+              HasSubstr("outside"));
+}
+
+/// Damage that a checksum does not see, as if somebody had made it on purpose.
+TEST_F(SavedMap, NoBytesWhateverBringTheReaderDown) {
+  const MapContents contents = with_everything();
+  const std::string good = encode_map(contents);
+  const MapFeatureSettings settings{.levels = 8, .scale_factor = 1.2};
+  std::mt19937 generator(20261122);
+  for (int i = 0; i < 60; ++i) {
+    const std::size_t at = generator() % good.size();
+    std::string cut = good.substr(0, at);
+    EXPECT_FALSE(decode_map(cut, contents.camera, settings)) << "cut at " << at;
+    std::string changed = good;
+    for (std::size_t k = at; k < std::min(at + 8, good.size()); ++k) {
+      changed[k] = static_cast<char>(generator());
+    }
+    const auto decoded = decode_map(changed, contents.camera, settings);
+    if (decoded) use(*decoded);
+  }
+  for (std::size_t at = 0; at < 64; ++at) {  // where the counts are
+    std::string changed = good;
+    changed[at] = static_cast<char>(0xff);
+    const auto decoded = decode_map(changed, contents.camera, settings);
+    if (decoded) use(*decoded);
+  }
+}
+
+TEST_F(SavedMap, IsNotWrittenOverTheOldOneWhereTheFolderIsAbsent) {
+  const auto saved = save_map(folder_ / "absent" / "x.tsgmap", example(), {}, 1);
+  ASSERT_FALSE(saved);
+  EXPECT_EQ(saved.error().code, ExitCode::kCannotWrite);
+  EXPECT_THAT(saved.error().message, HasSubstr("create the folder first"));
+}
+
+}  // namespace
+}  // namespace tsg
