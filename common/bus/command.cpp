@@ -22,13 +22,21 @@ CommandServer::CommandServer(Bus& bus, std::string service)
     : service_(std::move(service)), commands_(bus), replies_(bus) {}
 
 void CommandServer::on(const std::string& verb, Handler handler) {
-  handlers_[verb] = std::move(handler);
+  handlers_[verb] = [handler = std::move(handler)](const std::string& argument) {
+    // Done before it is asked for the first time.
+    return Expected<Pending>([result = handler(argument)] { return std::optional(result); });
+  };
+}
+
+void CommandServer::on_lasting(const std::string& verb, Beginner begin) {
+  handlers_[verb] = std::move(begin);
 }
 
 void CommandServer::serve_pending() {
   while (const auto command = commands_.try_take()) {
     if (service_ == (*command)->service) serve(**command);
   }
+  answer_what_is_done();
 }
 
 void CommandServer::serve(const tsg_Command& command) {
@@ -38,12 +46,27 @@ void CommandServer::serve(const tsg_Command& command) {
     reply(*known);
     return;
   }
-  answered_.push_back({command.id, carry_out(command)});
-  if (answered_.size() > kAnswersKept) answered_.pop_front();
-  reply(answered_.back());
+  const bool is_begun = std::any_of(works_.begin(), works_.end(),
+                                    [&](const Work& work) { return work.id == command.id; });
+  if (is_begun) return;
+  auto pending = begin(command);
+  works_.push_back({command.id, pending ? std::move(*pending) : [error = pending.error()] {
+                      return std::optional<Expected<std::string>>(tl::unexpected(error));
+                    }});
 }
 
-Expected<std::string> CommandServer::carry_out(const tsg_Command& command) const {
+void CommandServer::answer_what_is_done() {
+  std::erase_if(works_, [this](const Work& work) {
+    auto result = work.pending();
+    if (!result) return false;
+    answered_.push_back({work.id, std::move(*result)});
+    if (answered_.size() > kAnswersKept) answered_.pop_front();
+    reply(answered_.back());
+    return true;
+  });
+}
+
+Expected<CommandServer::Pending> CommandServer::begin(const tsg_Command& command) const {
   const auto handler = handlers_.find(command.verb);
   if (handler == handlers_.end()) {
     std::string verbs;

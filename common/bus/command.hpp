@@ -5,9 +5,11 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <random>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "common/bus/bus.hpp"
 #include "common/bus/topics.hpp"
@@ -25,11 +27,19 @@ class CommandServer {
   /// Gets a JSON object, returns one. Must not throw.
   using Handler = std::function<Expected<std::string>(const std::string& argument_json)>;
 
+  /// Work that was begun and goes on elsewhere: its result once there is one. Must not throw.
+  using Pending = std::function<std::optional<Expected<std::string>>()>;
+  /// Begins such work, or says why not.
+  using Beginner = std::function<Expected<Pending>(const std::string& argument_json)>;
+
   CommandServer(Bus& bus, std::string service);
 
   void on(const std::string& verb, Handler handler);
+  /// For what takes longer than the serving thread may pause: `begin` starts it, and every
+  /// serve_pending() asks whether it is done, until the command can be answered.
+  void on_lasting(const std::string& verb, Beginner begin);
 
-  /// Carries out what has come in since the last call; does not wait.
+  /// Carries out what has come in since the last call and answers what is done; does not wait.
   void serve_pending();
 
  private:
@@ -38,12 +48,20 @@ class CommandServer {
     Expected<std::string> result;
   };
 
+  /// A command that is not answered yet.
+  struct Work {
+    std::uint64_t id = 0;
+    Pending pending;
+  };
+
   void serve(const tsg_Command& command);
-  [[nodiscard]] Expected<std::string> carry_out(const tsg_Command& command) const;
+  [[nodiscard]] Expected<Pending> begin(const tsg_Command& command) const;
+  void answer_what_is_done();
   void reply(const Answer& answer);
 
   std::string service_;
-  std::map<std::string, Handler> handlers_;
+  std::map<std::string, Beginner> handlers_;
+  std::vector<Work> works_;
   std::deque<Answer> answered_;  // the last ones, for commands that arrive again
   Subscriber<topics::Command> commands_;
   Publisher<topics::Reply> replies_;

@@ -31,6 +31,17 @@ class RunningService {
     server_.on("fail", [](const std::string&) -> Expected<std::string> {
       return make_error(ExitCode::kCannotWrite, "the disk is full");
     });
+    server_.on_lasting("ponder", [this](const std::string& argument) {
+      ++calls_;
+      return Expected<CommandServer::Pending>(
+          [this, argument]() -> std::optional<Expected<std::string>> {
+            if (!is_done_) return std::nullopt;
+            return argument;
+          });
+    });
+    server_.on_lasting("refuse", [](const std::string&) -> Expected<CommandServer::Pending> {
+      return make_error(ExitCode::kUsage, "not now");
+    });
     thread_ = std::jthread([this](const std::stop_token& stop) {
       while (!stop.stop_requested()) {
         server_.serve_pending();
@@ -40,9 +51,11 @@ class RunningService {
   }
 
   [[nodiscard]] int calls() const { return calls_; }
+  void finish_pondering() { is_done_ = true; }
 
  private:
   std::atomic<int> calls_ = 0;
+  std::atomic<bool> is_done_ = false;
   CommandServer server_;
   std::jthread thread_;  // last: stops first
 };
@@ -119,6 +132,28 @@ TEST_F(Commands, ThatArriveTwiceAreCarriedOutOnceAndAnsweredTwice) {
   ASSERT_TRUE(bus_.publish<topics::Command>(fill));
   ASSERT_TRUE(bus_.wait_for<topics::Reply>(5s, is_answer));
   EXPECT_EQ(service.calls(), 1);
+}
+
+TEST_F(Commands, ThatLastHoldUpNoOthersAndAreBegunOnce) {
+  RunningService service(bus_.bus());
+  CommandClient other(bus_.bus());
+  auto slow = std::async(std::launch::async,
+                         [&] { return other.call("slam", "ponder", R"({"of":"life"})", 20s); });
+  ASSERT_TRUE(eventually(5s, [&] { return service.calls() == 1; }));
+  ASSERT_TRUE(client_.call("slam", "echo", "{}", 5s));
+  std::this_thread::sleep_for(600ms);  // the client repeats itself meanwhile
+  EXPECT_EQ(service.calls(), 2) << "the one that lasts, and the echo";
+  service.finish_pondering();
+  const auto reply = slow.get();
+  ASSERT_TRUE(reply) << reply.error().message;
+  EXPECT_EQ(*reply, R"({"of":"life"})");
+}
+
+TEST_F(Commands, ThatLastMayBeRefusedAtOnce) {
+  const RunningService service(bus_.bus());
+  const auto reply = client_.call("slam", "refuse", "{}", 5s);
+  ASSERT_FALSE(reply);
+  EXPECT_EQ(reply.error().message, "not now");
 }
 
 TEST_F(Commands, WaitNoLongerOnceStopped) {
