@@ -96,3 +96,11 @@ function(tsg_check_dependency_direction)
     endforeach()
   endforeach()
 endfunction()
+
+# tsg_vectorise(NAME): the instructions that every x86-64 processor since 2009 has: rounding and
+# counting of bits are one each. Others have theirs by default.
+function(tsg_vectorise name)
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+    target_compile_options(${name} PUBLIC -msse4.2 -mpopcnt)
+  endif()
+endfunction()

@@ -11,9 +11,9 @@
 namespace tsg::render {
 namespace {
 
-/// Offsets of the further samples of an edge pixel; with the centre, a rotated grid.
-constexpr std::array<std::array<float, 2>, 4> kEdgeSamples{
-    {{0.125F, 0.375F}, {-0.375F, 0.125F}, {-0.125F, -0.375F}, {0.375F, -0.125F}}};
+/// Offsets of the further samples of an edge pixel: with its centre one in each third of the
+/// columns and of the rows, whichever way the edge runs.
+constexpr std::array<std::array<float, 2>, 2> kEdgeSamples{{{0.333F, -0.333F}, {-0.333F, 0.333F}}};
 constexpr float kEdgeDepthStep = 0.02F;  // of the depth: a jump is an edge
 constexpr float kEdgeTurn = 0.9F;        // cosine between normals: a sharper bend is an edge
 
@@ -87,7 +87,7 @@ class Renderer::Frame {
     for_rows([this](int y) { paint_row(y); });
     edges_.resize(static_cast<std::size_t>(camera_.height));
     for_rows([this](int y) { look_at_edges(y); });
-    for (const EdgeRow& row : edges_) stage_.light_up(row.sightings);
+    stage_.light_up(edge_sightings());
     for_rows([this](int y) { smooth_edges(y); });
     return std::move(picture_);
   }
@@ -191,19 +191,28 @@ class Renderer::Frame {
     stage_.look(row.rays, row.sightings);
   }
 
-  /// Paints each edge pixel as the mean of its samples.
+  [[nodiscard]] std::vector<Sighting> edge_sightings() const {
+    std::vector<Sighting> all;
+    for (const EdgeRow& row : edges_) {
+      all.insert(all.end(), row.sightings.begin(), row.sightings.end());
+    }
+    return all;
+  }
+
+  /// Paints each edge pixel as the mean of its centre and the further samples.
   void smooth_edges(int y) {
     const EdgeRow& row = edges_[static_cast<std::size_t>(y)];
     for (std::size_t i = 0; i < row.columns.size(); ++i) {
-      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      auto& pixel = picture_.radiance.at<cv::Vec3f>(y, row.columns[i]);
+      Eigen::Vector3f sum(pixel[0], pixel[1], pixel[2]);
       for (std::size_t k = i * kEdgeSamples.size(); k < (i + 1) * kEdgeSamples.size(); ++k) {
         const Sighting& sighting = row.sightings[k];
         if (!sighting.hit.is_hit()) continue;
         const Eigen::Vector3f normal = normal_at(stage_, sighting, row.rays[k]);
         sum += radiance_towards(stage_, sighting, row.rays[k], normal, pixel_angle_);
       }
-      sum /= static_cast<float>(kEdgeSamples.size());
-      picture_.radiance.at<cv::Vec3f>(y, row.columns[i]) = {sum.x(), sum.y(), sum.z()};
+      sum /= static_cast<float>(kEdgeSamples.size() + 1);
+      pixel = {sum.x(), sum.y(), sum.z()};
     }
   }
 

@@ -91,8 +91,11 @@ void Stage::find_unknown(const Layer& layer,
                          bool of_bodies,
                          CornerLight& corners) {
   corners.unknown.clear();
+  std::uint32_t last = Hit::kNone;  // neighbouring pixels mostly show the same triangle
   for (const Sighting& sighting : seen) {
-    if (!sighting.hit.is_hit() || sighting.is_body != of_bodies) continue;
+    if (sighting.hit.triangle == last || sighting.is_body != of_bodies) continue;
+    last = sighting.hit.triangle;
+    if (last == Hit::kNone) continue;
     for (const std::uint32_t corner : layer.mesh.triangles[sighting.hit.triangle].corners) {
       if (corners.is_known[corner]) continue;
       corners.is_known[corner] = true;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr float kHighlightBlur =
     0.12F;                            // of the distance to the lamp: how rough glossy surfaces are
+constexpr float kFarMiss = 9.0F;      // squared, in blurs: what is left is below one part in 8000
 constexpr float kLeastFacing = 0.2F;  // flatter views blur no further, or floors lose all texture
 
 /// How strongly a mirrored line of sight hits a lamp: 1 inside, falling off around it.
@@ -23,9 +24,11 @@ float hit_strength(const Lamp& lamp,
     const float half = half_side.norm();
     return std::max(0.0F, std::abs(offset.dot(half_side)) / half - half);
   };
-  const float miss = std::hypot(beyond(lamp.half_side_a_m), beyond(lamp.half_side_b_m)) /
-                     (kHighlightBlur * distance);
-  return std::exp(-miss * miss);
+  const float beyond_a = beyond(lamp.half_side_a_m);
+  const float beyond_b = beyond(lamp.half_side_b_m);
+  const float blur_m = kHighlightBlur * distance;
+  const float squared_miss = (beyond_a * beyond_a + beyond_b * beyond_b) / (blur_m * blur_m);
+  return squared_miss > kFarMiss ? 0.0F : std::exp(-squared_miss);
 }
 
 Eigen::Vector3f highlight(const Stage& stage,
@@ -72,8 +75,9 @@ Eigen::Vector3f radiance_towards(const Stage& stage,
     const Eigen::Vector3f position = ray.origin + sighting.hit.distance * ray.direction;
     const Eigen::Vector3f mirrored = sight - 2.0F * normal.dot(sight) * normal;
     // Schlick's approximation: all surfaces mirror more when seen flat.
-    const float flat = std::pow(1.0F + normal.dot(sight), 5.0F);
-    radiance += material.gloss * (0.04F + 0.96F * flat) * highlight(stage, position, mirrored);
+    const float flat = std::max(1.0F + normal.dot(sight), 0.0F);
+    radiance += material.gloss * (0.04F + 0.96F * flat * flat * flat * flat * flat) *
+                highlight(stage, position, mirrored);
   }
   return radiance;
 }

@@ -38,16 +38,23 @@ void render_frames(benchmark::State& state, const char* name) {
 
 BENCHMARK_CAPTURE(build_scene, office_walking_xyz, "office_walking_xyz")
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK_CAPTURE(build_scene, corridor_loop, "corridor_loop")
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK_CAPTURE(render_frames, office_walking_xyz, "office_walking_xyz")
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
-BENCHMARK_CAPTURE(render_frames, crowd, "crowd")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(render_frames, crowd, "crowd")
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 BENCHMARK_CAPTURE(render_frames, corridor_loop, "corridor_loop")
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 
 }  // namespace

@@ -50,6 +50,23 @@ class Camera : public ::testing::Test {
     return reply ? nlohmann::json::parse(*reply) : nlohmann::json::object();
   }
 
+  /// How many frames the camera is done with, sent or not.
+  int frames_done() {
+    const auto figures = report();
+    return figures.value("frames_sent", 0) + figures.value("frames_late", 0) +
+           figures.value("frames_dropped_pool", 0);
+  }
+
+  /// Takes frames until the camera is done with `total`: however slow the machine, none is missed.
+  template <typename Visit>
+  void take_all(int total, const Visit& visit) {
+    const auto deadline = std::chrono::steady_clock::now() + 60s;
+    while (frames_done() < total && std::chrono::steady_clock::now() < deadline) {
+      while (const auto sample = take(100ms)) visit(*sample);
+    }
+    while (const auto sample = take(100ms)) visit(*sample);
+  }
+
   void expect_frame(const Sample<topics::Rgbd>& sample, int index) {
     const auto frame = view_as_frame(*sample);
     ASSERT_TRUE(frame) << frame.error().message;
@@ -126,20 +143,22 @@ TEST_F(Camera, FramesThatAStallMadeLateAreDroppedAndCounted) {
 
 TEST_F(Camera, FramesWithoutFreeMemoryAreDroppedAndCountedUntilThereIsSomeAgain) {
   write_sequence(75);
-  CameraProcess camera(folder_.path(), {"camera.drain_s=3"});
+  CameraProcess camera(folder_.path(), {"camera.drain_s=6"});
   std::vector<Sample<topics::Rgbd>> kept;
-  while (auto sample = take(kept.empty() ? 10s : 400ms)) kept.push_back(std::move(*sample));
+  const auto dropped = [&] { return report().value("frames_dropped_pool", 0); };
+  kept.push_back(take().value());
+  // On a busy machine other frames are late; only those that find no memory count here.
+  while (dropped() < 2 && frames_done() < 75) {
+    if (auto sample = take(50ms)) kept.push_back(std::move(*sample));
+  }
+  ASSERT_GE(dropped(), 2);
   ASSERT_GT(kept.size(), 10U);
   ASSERT_LT(kept.size(), 40U) << "the pool is larger than this test thinks";
   kept.clear();
-  EXPECT_TRUE(take(1s)) << "frames must flow again";
-  while (take(1s)) {
-  }
-  const auto figures = report();
-  EXPECT_GE(figures["frames_dropped_pool"].get<int>(), 5);
-  EXPECT_EQ(figures["frames_sent"].get<int>() + figures["frames_late"].get<int>() +
-                figures["frames_dropped_pool"].get<int>(),
-            75);
+  int received = 0;
+  take_all(75, [&](const auto&) { ++received; });
+  EXPECT_GT(received, 0) << "frames must flow again";
+  EXPECT_EQ(frames_done(), 75);
   EXPECT_EQ(camera.exit_code(), 0) << camera.log();
 }
 
@@ -147,7 +166,7 @@ TEST_F(Camera, SimulationIsLiveWithStampsOfThePresentAtTheRateOfTheScene) {
 #ifdef __SANITIZE_THREAD__
   GTEST_SKIP() << "Embree and TBB, which render, are not built with the thread sanitizer";
 #endif
-  const auto scene = folder_.write("room.yaml", R"(duration_s: 3
+  const auto scene = folder_.write("room.yaml", R"(duration_s: 5
 rooms: [{min_m: [0, 0], max_m: [4, 3]}]
 camera: {waypoints: [{at_s: 0, position_m: [0.5, 1.5, 1.4], look_at_m: [3, 1.5, 1.2]}]}
 )");
@@ -156,25 +175,28 @@ camera: {waypoints: [{at_s: 0, position_m: [0.5, 1.5, 1.4], look_at_m: [3, 1.5, 
   CameraProcess camera(folder_.path(),
                        {"camera.source=simulation", "camera.simulation.scene=" + scene.string(),
                         "camera.simulation.width=160", "camera.simulation.height=120",
-                        "camera.simulation.rate_hz=5", "camera.drain_s=6"});
+                        "camera.simulation.rate_hz=2", "camera.drain_s=6"});
   std::int64_t first_stamp_ns = 0;
-  std::uint64_t received = 0;
-  while (const auto sample = take(received == 0 ? 60s : 2s)) {
-    const auto frame = view_as_frame(**sample);
+  int received = 0;
+  const auto check = [&](const Sample<topics::Rgbd>& sample) {
+    const auto frame = view_as_frame(*sample);
     ASSERT_TRUE(frame) << frame.error().message;
     EXPECT_EQ(frame->camera.width, 160);
     if (received++ == 0) first_stamp_ns = frame->stamp_ns;
     EXPECT_EQ(frame->stamp_ns - first_stamp_ns,
-              static_cast<std::int64_t>(frame->seq) * 200'000'000);
+              static_cast<std::int64_t>(frame->seq) * 500'000'000);
     EXPECT_GT(cv::countNonZero(frame->depth), 160 * 120 / 2);
-  }
+  };
+  const auto first = take(60s);  // it builds the scene first
+  ASSERT_TRUE(first) << camera.log();
+  check(*first);
+  take_all(10, check);
   EXPECT_GT(first_stamp_ns, before_ns);
   EXPECT_LT(first_stamp_ns, utc_ns());
   // How many it manages depends on the machine, which may be busy.
-  EXPECT_GE(received, 2U);
-  const auto figures = report();
-  EXPECT_EQ(figures["frames_sent"], received);
-  EXPECT_EQ(figures["frames_sent"].get<int>() + figures["frames_late"].get<int>(), 15);
+  EXPECT_GE(received, 2);
+  EXPECT_EQ(report()["frames_sent"], received);
+  EXPECT_EQ(frames_done(), 10);
   EXPECT_EQ(camera.exit_code(), 0) << camera.log();
 }
 

@@ -23,18 +23,16 @@ constexpr int kMaxTaps = 24;
 /// Mean along the way that the pixel's surface moves while the shutter is open.
 cv::Vec3f blurred(const render::Picture& picture, int y, int x) {
   const auto& motion = picture.motion_px.at<cv::Vec2f>(y, x);
-  const float length_px = std::hypot(motion[0], motion[1]);
+  const float length_px = std::sqrt(motion[0] * motion[0] + motion[1] * motion[1]);
   const int taps = std::min(static_cast<int>(std::ceil(length_px)), kMaxTaps);
   if (taps < 2) return picture.radiance.at<cv::Vec3f>(y, x);
   cv::Vec3f sum(0.0F, 0.0F, 0.0F);
   for (int i = 0; i < taps; ++i) {
     const float along = (static_cast<float>(i) + 0.5F) / static_cast<float>(taps) - 0.5F;
-    const int tap_x =
-        std::clamp(static_cast<int>(std::lround(static_cast<float>(x) + along * motion[0])), 0,
-                   picture.radiance.cols - 1);
-    const int tap_y =
-        std::clamp(static_cast<int>(std::lround(static_cast<float>(y) + along * motion[1])), 0,
-                   picture.radiance.rows - 1);
+    const int tap_x = std::clamp(cvRound(static_cast<float>(x) + along * motion[0]), 0,
+                                 picture.radiance.cols - 1);
+    const int tap_y = std::clamp(cvRound(static_cast<float>(y) + along * motion[1]), 0,
+                                 picture.radiance.rows - 1);
     sum += picture.radiance.at<cv::Vec3f>(tap_y, tap_x);
   }
   return sum * (1.0F / static_cast<float>(taps));
