@@ -9,6 +9,7 @@
 #include "services/tsgctl/doctor_command.hpp"
 #include "services/tsgctl/echo_command.hpp"
 #include "services/tsgctl/eval_command.hpp"
+#include "services/tsgctl/eval_tum_command.hpp"
 #include "services/tsgctl/hz_command.hpp"
 #include "services/tsgctl/run_command.hpp"
 #include "services/tsgctl/simulate_command.hpp"
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
   });
   tsg::add_run_command(app);
   tsg::add_eval_command(app);
+  tsg::add_eval_tum_command(app);
   tsg::add_bench_command(app);
   tsg::add_simulate_command(app);
   tsg::add_status_command(app);
