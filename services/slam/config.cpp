@@ -58,6 +58,9 @@ void read_loop(ConfigReader& reader, LoopConfig& config) {
 
 std::vector<std::string> SlamNodeConfig::problems() const {
   std::vector<std::string> found = core.problems();
+  if (core.tracker.localisation_only && map_to_load.empty()) {
+    found.emplace_back("map.localisation_only needs a map: set map.load to a map file");
+  }
   if (!(lockstep_mask_wait_s > 0.0)) found.emplace_back("lockstep_mask_wait_s must be > 0");
   if (!(keyframe_mask_wait_s > 0.0)) found.emplace_back("keyframe_mask_wait_s must be > 0");
   if (lockstep && core.mapper.time_budget_s > 0.0) {
@@ -70,6 +73,8 @@ std::vector<std::string> SlamNodeConfig::problems() const {
 SlamNodeConfig load_slam_config(const ConfigFile& file) {
   SlamNodeConfig config;
   ConfigReader reader(file, "slam");
+  reader.read("map.load", config.map_to_load);
+  reader.read("map.localisation_only", config.core.tracker.localisation_only);
   reader.read("lockstep", config.lockstep);
   reader.read("expect_masks", config.expect_masks);
   reader.read("lockstep_mask_wait_s", config.lockstep_mask_wait_s);

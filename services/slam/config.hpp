@@ -11,6 +11,8 @@ namespace tsg {
 /// How the service drives the library.
 struct SlamNodeConfig {
   SlamConfig core;
+  /// Map file to start in; empty: a new map. With core.tracker.localisation_only it stays as it is.
+  std::string map_to_load;
   /// For evaluation: waits for the mask of every frame and maps before it answers, so that equal
   /// input gives equal output. False on a robot: tracking waits for nothing.
   bool lockstep = false;

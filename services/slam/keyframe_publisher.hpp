@@ -26,6 +26,9 @@ class KeyframePublisher {
   /// (world, sorted by id): the keyframes of tracking.
   Expected<void> publish_poses(const std::vector<KeyframePose>& corrected);
 
+  /// Another map: where those sent so far are is told no more.
+  void forget_places() { placed_.clear(); }
+
   [[nodiscard]] std::uint64_t sent() const { return sent_; }
 
  private:

@@ -1,12 +1,11 @@
 #include "services/slam/mapping_loop.hpp"
 
-#include <future>
 #include <utility>
 
 namespace tsg {
 
-MappingLoop::MappingLoop(const SlamConfig& config, const CameraModel& camera, MappingMode mode)
-    : mapper_(config, camera), snapshot_(mapper_.snapshot()) {
+MappingLoop::MappingLoop(LocalMapper mapper, MappingMode mode)
+    : mapper_(std::move(mapper)), snapshot_(mapper_.snapshot()) {
   if (mode == MappingMode::kConcurrent) {
     worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
   }
@@ -23,11 +22,18 @@ void MappingLoop::insert(KeyframeCandidate&& candidate) {
 }
 
 void MappingLoop::recall(const std::shared_ptr<const Features>& view) {
+  centre_.reset();  // the snapshot to come lies elsewhere
   if (is_recalling_.exchange(true)) return;
   post([this, view](LocalMapper& mapper, const std::stop_token&) {
     mapper.recall(*view);
     is_recalling_ = false;
   });
+}
+
+void MappingLoop::centre_on(KeyframeId reference) {
+  if (centre_ == reference) return;
+  centre_ = reference;
+  post([reference](LocalMapper& mapper, const std::stop_token&) { mapper.centre_on(reference); });
 }
 
 void MappingLoop::remove_points(std::vector<PointId> points) {
@@ -52,6 +58,15 @@ std::vector<KeyframePose> MappingLoop::keyframe_poses() {
     poses->set_value(mapper.keyframe_poses());
   });
   return result.get();
+}
+
+std::future<MapContents> MappingLoop::contents() {
+  auto contents = std::make_shared<std::promise<MapContents>>();
+  auto result = contents->get_future();
+  post([contents](LocalMapper& mapper, const std::stop_token&) {
+    contents->set_value(mapper.contents());
+  });
+  return result;
 }
 
 void MappingLoop::post(Task task) {

@@ -7,7 +7,6 @@
 #include "common/bus/convert.hpp"
 #include "common/core/time.hpp"
 #include "services/slam/results.hpp"
-#include "services/slam/status_message.hpp"
 
 namespace tsg {
 namespace {
@@ -25,11 +24,11 @@ std::chrono::milliseconds to_duration(double seconds) {
 
 SlamNode::Session::Session(const SlamNodeConfig& config,
                            const CameraModel& frame_camera,
-                           StageTimer& timer)
+                           StageTimer& timer,
+                           LocalMapper mapper)
     : camera(frame_camera),
       tracker(config.core, frame_camera, [&timer](TrackingStage stage) { timer.begin(stage); }),
-      mapping(config.core,
-              frame_camera,
+      mapping(std::move(mapper),
               config.lockstep ? MappingMode::kSynchronous : MappingMode::kConcurrent) {}
 
 SlamNode::SlamNode(const SlamNodeConfig& config, Bus& bus, const ServiceContext& context)
@@ -48,6 +47,8 @@ SlamNode::SlamNode(const SlamNodeConfig& config, Bus& bus, const ServiceContext&
   commands_.on("save_trajectory",
                [this](const std::string& argument) { return save_trajectory(argument); });
   commands_.on("report", [this](const std::string&) -> Expected<std::string> { return report(); });
+  add_map_commands();
+  if (!config.map_to_load.empty()) start_in_map(config.map_to_load);
 }
 
 void SlamNode::run() {
@@ -84,7 +85,11 @@ Expected<RgbdFrame> SlamNode::accept(const tsg_RgbdFrame& message) {
   auto frame = view_as_frame(message);
   if (!frame) return frame;
   if (session_ == nullptr) {
-    session_ = std::make_unique<Session>(config_, frame->camera, timer_);
+    session_ = std::make_unique<Session>(config_, frame->camera, timer_,
+                                         LocalMapper(config_.core, frame->camera));
+  } else if (last_stamp_ns_ == 0 && !(frame->camera == session_->camera)) {
+    throw FatalError(ExitCode::kConfig,
+                     other_camera(session_->map_file, session_->camera, frame->camera));
   } else if (!(frame->camera == session_->camera)) {
     return make_error(ExitCode::kSizeMismatch,
                       "the camera's size or intrinsics changed: restart slam for another camera");
@@ -129,6 +134,7 @@ void SlamNode::update_map(const RgbdFrame& frame,
   const bool is_keyframe = result.keyframe.has_value();
   if (is_keyframe) session_->mapping.insert(std::move(*result.keyframe));
   if (!result.T_world_camera) return;
+  if (config_.core.tracker.localisation_only) session_->mapping.centre_on(result.reference);
   const bool is_own_mask = mask != nullptr && mask->frame_seq == frame.seq;
   const KeyframePlace place{.T_map_camera = Odometry::T_map_world() * *result.T_world_camera,
                             .reference = result.reference,
@@ -201,9 +207,12 @@ void SlamNode::log_state(const TrackResult& result) {
 }
 
 void SlamNode::publish_diagnostics() {
-  const bool is_well = state_ == TrackingState::kTracking || session_ == nullptr;
+  const bool has_frames = last_stamp_ns_ != 0;
+  const bool is_well = state_ == TrackingState::kTracking || !has_frames;
+  std::string text = has_frames ? to_text(state_) : "waiting for frames";
+  if (config_.core.tracker.localisation_only) text += " (localisation only)";
   Diagnostic diagnostic{.level = is_well ? DiagnosticLevel::kOk : DiagnosticLevel::kWarn,
-                        .message = session_ == nullptr ? "waiting for frames" : to_text(state_),
+                        .message = std::move(text),
                         .values = {}};
   const auto add = [&](const char* key, auto value) {
     diagnostic.values.emplace_back(key, std::to_string(value));
@@ -217,6 +226,7 @@ void SlamNode::publish_diagnostics() {
   add("frames_lost", statistics_.frames_lost);
   add("frames_dropped", frames_.missed());
   add("keyframes_sent", keyframes_.sent());
+  add("map_keyframes", session_ == nullptr ? 0 : session_->mapping.snapshot()->map_keyframes);
   add("masks_received", masks_.received());
   const Summary latency_ms = statistics_.latency_ms.summary();
   add("latency_p50_ms", latency_ms.median);
@@ -237,7 +247,7 @@ Expected<std::string> SlamNode::save_trajectory(const std::string& argument_json
   }
   send(dense_keyframes_.flush());
   return save_results(argument["folder"].get<std::string>(), trajectory_,
-                      session_->mapping.keyframe_poses())
+                      session_->mapping.keyframe_poses(), session_->first_keyframe)
       .map([this] { return report(); });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -13,11 +14,13 @@
 #include "services/slam/dense_keyframes.hpp"
 #include "services/slam/keyframe_publisher.hpp"
 #include "services/slam/lib/trajectory_recorder.hpp"
+#include "services/slam/map_jobs.hpp"
 #include "services/slam/mapping_loop.hpp"
 #include "services/slam/mask_input.hpp"
 #include "services/slam/node_statistics.hpp"
 #include "services/slam/odometry.hpp"
 #include "services/slam/pose_publisher.hpp"
+#include "services/slam/status_message.hpp"
 
 namespace tsg {
 
@@ -25,22 +28,37 @@ namespace tsg {
 /// tracks and owns everything here; MappingLoop has a second one in real time.
 class SlamNode {
  public:
+  /// Throws FatalError where the map to start in cannot be loaded.
   SlamNode(const SlamNodeConfig& config, Bus& bus, const ServiceContext& context);
 
-  /// Returns once stopped. Throws FatalError (kTimeout) where lockstep waits in vain for a mask.
+  /// Returns once stopped. Throws FatalError: kTimeout where lockstep waits in vain for a mask,
+  /// kConfig where the camera is not the one of the map that slam was to start in.
   void run();
 
  private:
   /// What depends on the camera, which the first frame tells.
   struct Session {
-    Session(const SlamNodeConfig& config, const CameraModel& camera, StageTimer& timer);
+    Session(const SlamNodeConfig& config,
+            const CameraModel& camera,
+            StageTimer& timer,
+            LocalMapper mapper);
 
     CameraModel camera;
+    std::filesystem::path map_file = {};  // that it began with; empty: with a new map
+    KeyframeId first_keyframe = 0;        // those before came with the map
     Tracker tracker;
     MappingLoop mapping;
   };
 
-  void serve_commands();
+  void add_map_commands();
+  void start_in_map(const std::filesystem::path& file);
+  void enter(LoadedMap&& map);
+  [[nodiscard]] static std::string other_camera(const std::filesystem::path& file,
+                                                const CameraModel& of_map,
+                                                const CameraModel& of_frames);
+  [[nodiscard]] Expected<CommandServer::Pending> save_map(const std::string& argument_json);
+  [[nodiscard]] Expected<CommandServer::Pending> load_map(const std::string& argument_json);
+  [[nodiscard]] std::string map_info();
   void handle(const Sample<topics::Rgbd>& sample);
   [[nodiscard]] Expected<RgbdFrame> accept(const tsg_RgbdFrame& message);
   [[nodiscard]] const InstanceSegmentation* mask_for(const RgbdFrame& frame);

@@ -14,10 +14,11 @@ Trajectory in_map(Trajectory trajectory) {
   return trajectory;
 }
 
-Trajectory to_trajectory(const std::vector<KeyframePose>& keyframes) {
+Trajectory to_trajectory(const std::vector<KeyframePose>& keyframes, KeyframeId first) {
   Trajectory trajectory;
   trajectory.reserve(keyframes.size());
   for (const KeyframePose& keyframe : keyframes) {
+    if (keyframe.id < first) continue;
     trajectory.push_back({keyframe.stamp_ns, keyframe.T_world_camera});
   }
   return trajectory;
@@ -27,7 +28,8 @@ Trajectory to_trajectory(const std::vector<KeyframePose>& keyframes) {
 
 Expected<void> save_results(const std::filesystem::path& folder,
                             const TrajectoryRecorder& recorder,
-                            const std::vector<KeyframePose>& keyframes) {
+                            const std::vector<KeyframePose>& keyframes,
+                            KeyframeId first_of_session) {
   const auto write = [&](const char* name, Trajectory trajectory) {
     return write_trajectory(folder / name, in_map(std::move(trajectory)),
                             StampDecimals::kNanoseconds);
@@ -35,7 +37,7 @@ Expected<void> save_results(const std::filesystem::path& folder,
   return make_folder(folder)
       .and_then([&] { return write("trajectory.txt", recorder.corrected(keyframes)); })
       .and_then([&] { return write("trajectory_live.txt", recorder.live()); })
-      .and_then([&] { return write("keyframes.txt", to_trajectory(keyframes)); });
+      .and_then([&] { return write("keyframes.txt", to_trajectory(keyframes, first_of_session)); });
 }
 
 }  // namespace tsg

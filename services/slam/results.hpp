@@ -12,6 +12,7 @@ namespace tsg {
 /// its keyframe), trajectory_live.txt (as published), keyframes.txt. kCannotWrite names the file.
 [[nodiscard]] Expected<void> save_results(const std::filesystem::path& folder,
                                           const TrajectoryRecorder& recorder,
-                                          const std::vector<KeyframePose>& keyframes);
+                                          const std::vector<KeyframePose>& keyframes,
+                                          KeyframeId first_of_session);
 
 }  // namespace tsg

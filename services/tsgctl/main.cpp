@@ -11,6 +11,7 @@
 #include "services/tsgctl/eval_command.hpp"
 #include "services/tsgctl/eval_tum_command.hpp"
 #include "services/tsgctl/hz_command.hpp"
+#include "services/tsgctl/map_command.hpp"
 #include "services/tsgctl/run_command.hpp"
 #include "services/tsgctl/simulate_command.hpp"
 #include "services/tsgctl/status_command.hpp"
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
     return std::string("tsgctl: error: ") + error.what() + "; --help tells more\n";
   });
   tsg::add_run_command(app);
+  tsg::add_map_command(app);
   tsg::add_eval_command(app);
   tsg::add_eval_tum_command(app);
   tsg::add_bench_command(app);

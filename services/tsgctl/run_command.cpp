@@ -39,6 +39,8 @@ Examples:
   tsgctl run --input data/walking_xyz --out out --pace lockstep --segmentation dataset
   tsgctl run --input data/fr3_walking --out out --segmentation model --model yolov8n-seg.onnx
   tsgctl run --input data/desk --out out --set slam.features.max_features=800
+  tsgctl run --input data/morning --out out --save-map home.tsgmap
+  tsgctl run --input data/evening --out out2 --load-map home.tsgmap --localisation-only
 Ends with 0 when every process did its work; other codes: docs/exit-codes.md.)";
 
 void describe(CLI::App& command, RunArguments& arguments) {
@@ -60,8 +62,23 @@ void describe(CLI::App& command, RunArguments& arguments) {
       ->type_name("dataset|model|off");
   command.add_option("--model", options.model, "Network for --segmentation model")
       ->type_name("FILE.onnx");
+  command.add_option("--load-map", options.load_map, "Start in the map of this file")
+      ->type_name("FILE");
+  command.add_flag("--localisation-only", options.localisation_only,
+                   "Find poses in that map, never change it");
+  command.add_option("--save-map", options.save_map, "Save slam's map into this file at the end")
+      ->type_name("FILE");
   add_bus_options(command, arguments.bus);
   command.footer(kFooter);
+}
+
+/// Told now rather than when the run is over and its map would be lost.
+void check_map_folder(const std::filesystem::path& map) {
+  const std::filesystem::path folder = std::filesystem::absolute(map).parent_path();
+  if (map.empty() || std::filesystem::is_directory(folder)) return;
+  throw FatalError(ExitCode::kCannotWrite, "--save-map " + map.string() +
+                                               ": there is no such folder; create it first or "
+                                               "choose another one");
 }
 
 SegmentationSource segmentation_of(const RunArguments& arguments) {
@@ -126,6 +143,7 @@ void run(RunArguments& arguments) {
   options.pace = arguments.pace == "lockstep" ? Pace::kLockstep : Pace::kRealtime;
   options.segmentation = segmentation_of(arguments);
   throw_on_error(check_run_options(options));
+  check_map_folder(options.save_map);
   const StopOnSignal signals;
   const Sequence sequence = open_sequence(options);
   RunSession session(options, sequence, signals);

@@ -53,6 +53,7 @@ struct Tracker::Impl {
               const LocalMapSnapshot& map,
               const Fix& fix,
               TrackResult& result);
+  [[nodiscard]] std::string why_lost() const;
   void lose(TrackResult& result, std::string reason);
   [[nodiscard]] KeyframeId choose_reference(const LocalMapSnapshot& map,
                                             const FrameMatches& matches) const;
@@ -169,6 +170,12 @@ void Tracker::Impl::accept(const std::shared_ptr<const Features>& features,
   propose_keyframe(map, fix.inliers, result);
 }
 
+std::string Tracker::Impl::why_lost() const {
+  if (!last) return "looking for the place in the loaded map";
+  if (config.tracker.localisation_only) return "no place of the map (localisation only) matches";
+  return "neither the last frame nor a keyframe matches the view";
+}
+
 void Tracker::Impl::lose(TrackResult& result, std::string reason) {
   lost = true;
   result.state = TrackingState::kLost;
@@ -265,8 +272,7 @@ TrackResult Tracker::track(const std::shared_ptr<const Features>& features,
                           .T_predicted_world = impl_->predict(features->stamp_ns).inverse(),
                           .is_lost = impl_->lost});
   if (!fix) {
-    impl_->lose(result, impl_->last ? "neither the last frame nor a keyframe matches the view"
-                                    : "looking for the place in the loaded map");
+    impl_->lose(result, impl_->why_lost());
     return result;
   }
   result.matches = fix->matches.count();

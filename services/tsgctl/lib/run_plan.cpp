@@ -8,13 +8,15 @@ namespace tsg {
 namespace {
 
 /// Keys that an option of `tsgctl run` decides: setting them as well could only contradict it.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kKeysOfOptions{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kKeysOfOptions{{
     {"camera.source", "--input"},
     {"camera.replay.folder", "--input"},
     {"camera.pace", "--pace"},
     {"camera.wait_for_subscribers", "--segmentation"},
     {"slam.lockstep", "--pace"},
     {"slam.expect_masks", "--segmentation"},
+    {"slam.map.load", "--load-map"},
+    {"slam.map.localisation_only", "--localisation-only"},
     {"segmentation.provider", "--segmentation"},
     {"segmentation.dataset.folder", "--input"},
     {"segmentation.model.file", "--model"},
@@ -64,10 +66,12 @@ std::vector<std::string> segmentation_arguments(const RunOptions& options) {
 std::vector<std::string> slam_arguments(const RunOptions& options) {
   const bool lockstep = options.pace == Pace::kLockstep;
   const bool masks = options.segmentation != SegmentationSource::kOff;
-  return Arguments(options)
-      .set(std::string("slam.lockstep=") + (lockstep ? "true" : "false"))
-      .set(std::string("slam.expect_masks=") + (masks ? "true" : "false"))
-      .take();
+  Arguments arguments(options);
+  arguments.set(std::string("slam.lockstep=") + (lockstep ? "true" : "false"))
+      .set(std::string("slam.expect_masks=") + (masks ? "true" : "false"));
+  if (!options.load_map.empty()) arguments.set("slam.map.load=" + options.load_map.string());
+  if (options.localisation_only) arguments.set("slam.map.localisation_only=true");
+  return arguments.take();
 }
 
 std::vector<std::string> camera_arguments(const RunOptions& options) {
@@ -104,6 +108,9 @@ Expected<void> check_run_options(const RunOptions& options) {
   if (options.segmentation != SegmentationSource::kModel && !options.model.empty()) {
     return make_error(ExitCode::kUsage, "--model goes with --segmentation model, not with " +
                                             std::string(to_string(options.segmentation)));
+  }
+  if (options.localisation_only && options.load_map.empty()) {
+    return make_error(ExitCode::kUsage, "--localisation-only needs a map: add --load-map FILE");
   }
   for (const std::string& override_text : options.overrides) {
     if (auto checked = check_override(override_text); !checked) return checked;

@@ -122,5 +122,29 @@ TEST(RunPlan, OverrideOfWhatAnOptionDecidesIsAUsageErrorNamingTheOption) {
   EXPECT_THAT(plan.error().message, HasSubstr("--pace"));
 }
 
+TEST(RunPlan, MapToStartInReachesSlamAlone) {
+  RunOptions options = options_of(SegmentationSource::kOff);
+  options.load_map = "/maps/home.tsgmap";
+  options.localisation_only = true;
+  const RunPlan plan = planned(options);
+  EXPECT_THAT(arguments_of(plan, "slam"),
+              IsSupersetOf({"slam.map.load=/maps/home.tsgmap", "slam.map.localisation_only=true"}));
+  EXPECT_THAT(arguments_of(plan, "camera"), Not(Contains("slam.map.load=/maps/home.tsgmap")));
+}
+
+TEST(RunPlan, WithoutAMapSaysNothingOfMaps) {
+  const RunPlan plan = planned(options_of(SegmentationSource::kOff));
+  EXPECT_THAT(arguments_of(plan, "slam"), Not(Contains(HasSubstr("slam.map."))));
+}
+
+TEST(RunPlan, LocalisationOnlyNeedsAMap) {
+  RunOptions options = options_of(SegmentationSource::kOff);
+  options.localisation_only = true;
+  const auto checked = check_run_options(options);
+  ASSERT_FALSE(checked);
+  EXPECT_EQ(checked.error().code, ExitCode::kUsage);
+  EXPECT_THAT(checked.error().message, HasSubstr("--load-map FILE"));
+}
+
 }  // namespace
 }  // namespace tsg

@@ -154,6 +154,10 @@ void RunSession::save() {
   const auto keyframes = replies_["slam"].value("keyframes_sent", std::uint64_t{0});
   replies_["map_server"] =
       ask("map_server", "save_map", {{"folder", folder}, {"keyframes", keyframes}});
+  if (!options_.save_map.empty()) {
+    const std::string file = std::filesystem::absolute(options_.save_map).string();
+    replies_["slam"]["saved_map"] = ask("slam", "save_map", {{"file", file}});
+  }
   for (const std::string service : {"slam", "segmentation", "map_server"}) {
     if (!supervisor_.is_running(service)) continue;
     replies_[service]["report"] = ask(service, "report", nlohmann::json::object());
