@@ -29,12 +29,12 @@ struct RunOptions {
   std::filesystem::path out;
   Pace pace = Pace::kRealtime;
   SegmentationSource segmentation = SegmentationSource::kOff;
-  std::filesystem::path load_map;      ///< map file that slam starts in; empty: a new map
-  bool localisation_only = false;      ///< in that map, which stays as it is
-  std::filesystem::path save_map;      ///< where the map goes at the end; empty: nowhere
-  std::filesystem::path model;         ///< network file; set exactly with kModel
-  std::filesystem::path config;        ///< empty: the defaults of the services
-  std::vector<std::string> overrides;  ///< "section.key=value", of the user
+  std::filesystem::path load_map = {};  ///< map file that slam starts in; empty: a new map
+  bool localisation_only = false;       ///< in that map, which stays as it is
+  std::filesystem::path save_map = {};  ///< where the map goes at the end; empty: nowhere
+  std::filesystem::path model;          ///< network file; set exactly with kModel
+  std::filesystem::path config;         ///< empty: the defaults of the services
+  std::vector<std::string> overrides;   ///< "section.key=value", of the user
 };
 
 /// One process to start.
