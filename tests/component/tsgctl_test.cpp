@@ -60,7 +60,8 @@ Background publish_statuses(test::TestBus& bus) {
 }
 
 TEST(TsgctlUsage, EveryCommandHasHelpWithExamples) {
-  for (const char* command : {"run", "status", "topics", "echo", "hz", "doctor", "simulate", "eval-tum"}) {
+  for (const char* command :
+       {"run", "status", "topics", "echo", "hz", "doctor", "simulate", "eval-tum"}) {
     const ProgramResult result = tsgctl({command, "--help"});
     EXPECT_EQ(result.end.exit_code, 0) << command;
     EXPECT_THAT(result.output, HasSubstr("Examples:")) << command;
