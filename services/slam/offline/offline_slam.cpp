@@ -1,5 +1,6 @@
 #include "services/slam/offline/offline_slam.hpp"
 
+#include <algorithm>
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
@@ -8,6 +9,11 @@
 
 namespace tsg {
 namespace {
+
+LocalMapper make_mapper(const TumFolder& sequence, const OfflineOptions& options) {
+  if (options.map) return {options.slam, MapContents(*options.map)};
+  return {options.slam, sequence.camera.model};
+}
 
 class OfflineSlam {
  public:
@@ -23,7 +29,8 @@ class OfflineSlam {
         tracker_(options.slam,
                  sequence.camera.model,
                  [this](TrackingStage stage) { clock_.begin(stage); }),
-        mapper_(options.slam, sequence.camera.model) {}
+        mapper_(make_mapper(sequence, options)),
+        localisation_only_(options.slam.tracker.localisation_only) {}
 
   Expected<void> step(int lap, std::size_t index);
   OfflineRun finish();
@@ -40,6 +47,7 @@ class OfflineSlam {
   StageClock clock_;
   Tracker tracker_;
   LocalMapper mapper_;
+  bool localisation_only_;
   TrajectoryRecorder recorder_;
   OfflineRun run_;
 };
@@ -79,6 +87,7 @@ TrackResult OfflineSlam::track(const RgbdFrame& frame, const InstanceSegmentatio
   TrackResult result = tracker_.track(features, *mapper_.snapshot());
   clock_.start_mapping();
   recorder_.record(result);
+  if (result.T_world_camera && localisation_only_) mapper_.centre_on(result.reference);
   if (result.T_world_camera) return result;
   run_.failures.push_back("frame " + std::to_string(frame.seq) + ": " + result.reason);
   if (result.state == TrackingState::kLost) mapper_.recall(*features);
@@ -103,6 +112,7 @@ OfflineRun OfflineSlam::finish() {
   run_.map_keyframes = snapshot->map_keyframes;
   run_.map_points = snapshot->map_points;
   run_.map_corrections = snapshot->corrections;
+  run_.map = std::make_shared<const MapContents>(mapper_.contents());
   return std::move(run_);
 }
 
@@ -115,8 +125,9 @@ Expected<OfflineRun> run_offline(const TumFolder& sequence,
   auto masks = MaskSource::open(sequence.path, options.masks);
   if (!masks) return tl::unexpected(masks.error());
   OfflineSlam slam(sequence, options, hooks, std::move(*masks));
+  const std::size_t end = std::min(options.end_frame, sequence.frames.size());
   for (int lap = 0; lap < options.laps; ++lap) {
-    for (std::size_t i = 0; i < sequence.frames.size(); i += options.take_every_frames) {
+    for (std::size_t i = options.first_frame; i < end; i += options.take_every_frames) {
       if (auto done = slam.step(lap, i); !done) return tl::unexpected(done.error());
     }
   }

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "common/dataset/tum_folder.hpp"
 #include "common/geometry/stamped_pose.hpp"
 #include "services/slam/lib/local_mapper.hpp"
+#include "services/slam/lib/map_contents.hpp"
 #include "services/slam/lib/slam_config.hpp"
 #include "services/slam/lib/tracker.hpp"
 #include "services/slam/offline/mask_source.hpp"
@@ -20,7 +23,10 @@ namespace tsg {
 struct OfflineOptions {
   SlamConfig slam = {};
   MaskOptions masks = {};
+  std::size_t first_frame = 0;                                      ///< index in the sequence
+  std::size_t end_frame = std::numeric_limits<std::size_t>::max();  ///< one beyond the last
   std::size_t take_every_frames = 1;  ///< the others are skipped, as if the camera were faster
+  std::shared_ptr<const MapContents> map = {};  ///< to start in; null: a new map
   int laps = 1;  ///< how often the sequence is gone through; its path should be closed for more
 };
 
@@ -49,8 +55,9 @@ struct OfflineRun {
   std::vector<std::string> failures;  ///< frame and reason of each frame without a pose
   std::size_t map_keyframes = 0;      ///< that are left in the map
   std::size_t map_points = 0;
-  std::uint64_t map_corrections = 0;  ///< by loops
-  std::size_t loops = 0;              ///< closed
+  std::uint64_t map_corrections = 0;       ///< by loops
+  std::size_t loops = 0;                   ///< closed
+  std::shared_ptr<const MapContents> map;  ///< at the end
 };
 
 /// Runs tracking and mapping in turn over a sequence, as slam does in lockstep: no bus, no threads.
