@@ -74,8 +74,8 @@ void describe(CLI::App& command, RunArguments& arguments) {
 
 /// Told now rather than when the run is over and its map would be lost.
 void check_map_folder(const std::filesystem::path& map) {
-  const std::filesystem::path folder = std::filesystem::absolute(map).parent_path();
-  if (map.empty() || std::filesystem::is_directory(folder)) return;
+  if (map.empty()) return;
+  if (std::filesystem::is_directory(std::filesystem::absolute(map).parent_path())) return;
   throw FatalError(ExitCode::kCannotWrite, "--save-map " + map.string() +
                                                ": there is no such folder; create it first or "
                                                "choose another one");
