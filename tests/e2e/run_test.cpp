@@ -70,6 +70,34 @@ TEST(RunSimulatedRoom, TwoLockstepRunsGiveTheSameTrajectoryToTheByte) {
   EXPECT_EQ(trajectory, test::content_of(second.out() / "trajectory.txt"));
 }
 
+TEST(RunSimulatedRoom, SavesAMapAndFindsItsWayInItTheNextTime) {
+  const TempFolder maps;
+  const std::string map = (maps / "room.tsgmap").string();
+  std::vector<std::string> options = lockstep("dataset");
+  options.insert(options.end(), {"--save-map", map});
+  TsgctlRun first(simulated_room(), options);
+  const nlohmann::json saved = complete_run(first)["services"]["slam"]["saved_map"];
+  EXPECT_EQ(saved["bytes"], std::filesystem::file_size(map));
+  options = lockstep("dataset");
+  options.insert(options.end(), {"--load-map", map, "--localisation-only"});
+  TsgctlRun second(simulated_room(), options);
+  const ProgramResult result = second.run();
+  EXPECT_EQ(result.end.exit_code, 0) << result.output;
+  const nlohmann::json report = second.report();
+  ASSERT_TRUE(report.is_object()) << result.output;
+  EXPECT_LE(report["frames"]["lost"], 1) << "the first frame has to be recognised";
+  EXPECT_LE(ate_rmse(report), 0.02);
+  EXPECT_EQ(report["services"]["slam"]["keyframes_sent"], 0) << "the map stays as it is";
+}
+
+TEST(RunSimulatedRoom, FolderForTheMapIsMissedBeforeAnythingStarts) {
+  TsgctlRun run(simulated_room(), {"--save-map", "/nonexistent/room.tsgmap"});
+  const ProgramResult result = run.run();
+  EXPECT_EQ(result.end.exit_code, static_cast<int>(ExitCode::kCannotWrite));
+  EXPECT_THAT(result.output, HasSubstr("--save-map /nonexistent/room.tsgmap"));
+  EXPECT_FALSE(std::filesystem::exists(run.out()));
+}
+
 constexpr const char* kCachedScene = TSG_SOURCE_DIR "/deploy/cached-scene";
 constexpr const char* kTsgctl = TSG_BIN_DIR "/tsgctl";
 
