@@ -29,8 +29,8 @@ struct MapPartInfo {
   std::uint32_t part = 0;
   std::uint64_t keyframes = 0;
   std::uint64_t points = 0;
-  Eigen::Vector3d extent_m =
-      Eigen::Vector3d::Zero();  ///< of all its points, along the world's axes
+  /// Along the world's axes, without the outermost hundredth of its points on each side.
+  Eigen::Vector3d extent_m = Eigen::Vector3d::Zero();
 
   bool operator==(const MapPartInfo&) const = default;
 };

@@ -1,17 +1,21 @@
 #include "services/slam/lib/saved_map.hpp"
 
-#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <map>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/core/statistics.hpp"
 #include "services/slam/lib/map_encoding.hpp"
 #include "services/slam/lib/oriented_brief.hpp"
 
 namespace tsg {
 namespace {
+
+constexpr double kOutlierShare = 0.01;  // a few far points would make a room look like a hall
 
 MapFeatureSettings settings_of(const FeatureConfig& features) {
   return {.levels = static_cast<std::uint32_t>(features.levels),
@@ -19,11 +23,18 @@ MapFeatureSettings settings_of(const FeatureConfig& features) {
           .pattern = descriptor_pattern_id()};
 }
 
+/// Room that values take without the outliers at both ends.
+double spread(std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return quantile(values, 1.0 - kOutlierShare) - quantile(values, kOutlierShare);
+}
+
 /// What users want to know of each part, in the order of their numbers.
 std::vector<MapPartInfo> describe_parts(const MapContents& contents) {
   struct Extent {
     MapPartInfo info;
-    Eigen::AlignedBox3d box;
+    std::array<std::vector<double>, 3> coordinates;
   };
   std::map<MapPart, Extent> parts;
   std::map<KeyframeId, MapPart> part_of;
@@ -34,12 +45,16 @@ std::vector<MapPartInfo> describe_parts(const MapContents& contents) {
   for (const MapPoint& point : contents.points) {
     Extent& extent = parts[part_of.at(point.observations.front().keyframe)];
     ++extent.info.points;
-    extent.box.extend(point.position);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      extent.coordinates[axis].push_back(point.position[static_cast<Eigen::Index>(axis)]);
+    }
   }
   std::vector<MapPartInfo> infos;
   for (auto& [part, extent] : parts) {
     extent.info.part = part;
-    if (!extent.box.isEmpty()) extent.info.extent_m = extent.box.sizes();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      extent.info.extent_m[static_cast<Eigen::Index>(axis)] = spread(extent.coordinates[axis]);
+    }
     infos.push_back(extent.info);
   }
   return infos;
