@@ -27,17 +27,17 @@ int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 class BenchSlam : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = std::make_unique<test::TempFolder>();
+    folder = std::make_unique<test::TempFolder>();
     test::simulate(room(), "demo", {"--frames", std::to_string(kFrames), "--size", "320x240"});
   }
-  static void TearDownTestSuite() { folder_.reset(); }
+  static void TearDownTestSuite() { folder.reset(); }
 
-  static std::string path(const std::string& name) { return (*folder_ / name).string(); }
+  static std::string path(const std::string& name) { return (*folder / name).string(); }
   static std::string room() { return path("room"); }
 
-  static std::unique_ptr<test::TempFolder> folder_;
+  static std::unique_ptr<test::TempFolder> folder;
 };
-std::unique_ptr<test::TempFolder> BenchSlam::folder_;
+std::unique_ptr<test::TempFolder> BenchSlam::folder;
 
 /// What stands between the first "{" and the end: progress goes to stderr, which is in the output.
 nlohmann::json json_of(const ProgramResult& result) {

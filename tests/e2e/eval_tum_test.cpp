@@ -18,6 +18,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr int kFrames = 20;
+const std::string kFetchTum = std::string(TSG_SOURCE_DIR) + "/deploy/fetch-tum";
 const std::string kFolder = "rgbd_dataset_freiburg3_walking_xyz";
 
 void run_or_throw(const std::string& program, const std::vector<std::string>& arguments) {
@@ -41,21 +42,21 @@ void render(const fs::path& folder) {
 class EvalTum : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = std::make_unique<TempFolder>();
-    const fs::path sequence = *folder_ / kFolder;
+    folder = std::make_unique<TempFolder>();
+    const fs::path sequence = *folder / kFolder;
     render(sequence);
     fs::remove(sequence / "camera.yaml");
-    folder_->write(kFolder + "/accelerometer.txt", "1305031098.6711 -0.0001 8.1716 -4.4\n");
-    fs::create_directories(*folder_ / "site/freiburg3");
-    run_or_throw("tar", {"-czf", (*folder_ / "site/freiburg3" / (kFolder + ".tgz")).string(), "-C",
-                         folder_->path().string(), kFolder});
-    const FileServer server(*folder_ / "site");
-    run_or_throw("env", {"TSG_TUM_URL=" + server.url(), "no_proxy=*",
-                         TSG_SOURCE_DIR "/deploy/fetch-tum", "fr3/walking_xyz", "--data", data()});
+    folder->write(kFolder + "/accelerometer.txt", "1305031098.6711 -0.0001 8.1716 -4.4\n");
+    fs::create_directories(*folder / "site/freiburg3");
+    run_or_throw("tar", {"-czf", (*folder / "site/freiburg3" / (kFolder + ".tgz")).string(), "-C",
+                         folder->path().string(), kFolder});
+    const FileServer server(*folder / "site");
+    run_or_throw("env", {"TSG_TUM_URL=" + server.url(), "no_proxy=*", kFetchTum, "fr3/walking_xyz",
+                         "--data", data()});
   }
-  static void TearDownTestSuite() { folder_.reset(); }
+  static void TearDownTestSuite() { folder.reset(); }
 
-  static std::string data() { return (*folder_ / "data").string(); }
+  static std::string data() { return (*folder / "data").string(); }
 
   [[nodiscard]] ProgramResult eval_tum(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"eval-tum", "--data", data(), "--out", out().string()});
@@ -63,10 +64,10 @@ class EvalTum : public ::testing::Test {
   }
   [[nodiscard]] fs::path out() const { return out_ / "results"; }
 
-  static std::unique_ptr<TempFolder> folder_;
+  static std::unique_ptr<TempFolder> folder;
   TempFolder out_;
 };
-std::unique_ptr<TempFolder> EvalTum::folder_;
+std::unique_ptr<TempFolder> EvalTum::folder;
 
 nlohmann::json json_of(const ProgramResult& result) {
   return nlohmann::json::parse(result.output.substr(result.output.find("\n{\n")), nullptr, false);

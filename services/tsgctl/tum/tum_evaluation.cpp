@@ -55,7 +55,7 @@ class Evaluation {
   Evaluation(const TumOptions& options, const StopOnSignal& signals)
       : options_(options), signals_(signals) {}
 
-  TumSequenceResult evaluate(const std::string& name) const {
+  [[nodiscard]] TumSequenceResult evaluate(const std::string& name) const {
     TumSequenceResult result{.name = name};
     run(name, SegmentationSource::kOff, result.plain, result.problem);
     if (options_.segmentation != SegmentationSource::kOff) {
