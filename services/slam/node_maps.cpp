@@ -13,7 +13,7 @@ Expected<std::filesystem::path> file_of(const nlohmann::json& argument, const st
   if (file != argument.end() && file->is_string() && !file->get<std::string>().empty()) {
     return std::filesystem::path(file->get<std::string>());
   }
-  return make_error(ExitCode::kUsage, verb + " needs {\"file\": \"...\"}, the path of a map file");
+  return make_error(ExitCode::kUsage, verb + R"( needs {"file": "..."}, the path of a map file)");
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ Expected<CommandServer::Pending> SlamNode::load_map(const std::string& argument_
   SlamConfig config = config_.core;
   if (const auto only = argument.find("localisation_only"); only != argument.end()) {
     if (!only->is_boolean()) {
-      return make_error(ExitCode::kUsage, "load_map: \"localisation_only\" must be true or false");
+      return make_error(ExitCode::kUsage, R"(load_map: "localisation_only" must be true or false)");
     }
     config.tracker.localisation_only = only->get<bool>();
   }

@@ -82,7 +82,7 @@ std::string check_points(const MapContents& contents, Checker& checker) {
         }) == seen.end();
     if (!are_sorted) return "the observations of a point are out of order";
     for (const Observation& observation : seen) {
-      const std::string problem = checker.check(point, observation);
+      std::string problem = checker.check(point, observation);
       if (!problem.empty()) return problem;
     }
   }

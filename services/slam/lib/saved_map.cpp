@@ -89,11 +89,11 @@ Expected<MapFileInfo> save_map(const std::filesystem::path& path,
                                const MapContents& contents,
                                const FeatureConfig& features,
                                std::int64_t created_ns) {
-  const MapFileInfo info{.created_ns = created_ns,
-                         .camera = contents.camera,
-                         .features = settings_of(features),
-                         .parts = describe_parts(contents)};
-  return write_map_file(path, info, encode_map(contents)).map([&] { return info; });
+  MapFileInfo info{.created_ns = created_ns,
+                   .camera = contents.camera,
+                   .features = settings_of(features),
+                   .parts = describe_parts(contents)};
+  return write_map_file(path, info, encode_map(contents)).map([&] { return std::move(info); });
 }
 
 Expected<MapContents> load_map(const std::filesystem::path& path, const FeatureConfig& features) {

@@ -3,93 +3,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <limits>
-#include <random>
-
-#include "services/slam/lib/local_mapper.hpp"
 #include "services/slam/lib/map_encoding.hpp"
-#include "services/slam/lib/synthetic_scene.hpp"
-#include "services/slam/lib/tracker.hpp"
+#include "services/slam/lib/synthetic_session.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace tsg {
 namespace {
 
+using synthetic::example_map;
+using synthetic::map_with_everything;
+using synthetic::on_path;
+using synthetic::room;
+using synthetic::Session;
+using synthetic::walk;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-SE3 on_path(int i) { return synthetic::pose_at(0.02 * i, 0.005 * i, 0.01 * i, 0.006 * i); }
-
-/// Tracking and mapping in turn.
-class System {
- public:
-  explicit System(const SlamConfig& config = {})
-      : tracker_(config, synthetic::camera()), mapper_(config, synthetic::camera()) {}
-  System(const SlamConfig& config, MapContents&& contents)
-      : tracker_(config, contents.camera), mapper_(config, std::move(contents)) {}
-
-  TrackResult step(const RgbdFrame& frame) {
-    const auto features = tracker_.extract(frame, nullptr);
-    TrackResult result = tracker_.track(features, *mapper_.snapshot());
-    if (result.state == TrackingState::kLost) mapper_.recall(*features);
-    mapper_.remove_points(result.dynamic_points);
-    if (result.keyframe) {
-      mapper_.insert(KeyframeCandidate(*result.keyframe));
-      mapper_.refine({});
-    }
-    return result;
-  }
-  LocalMapper& mapper() { return mapper_; }
-
- private:
-  Tracker tracker_;
-  LocalMapper mapper_;
-};
-
-const synthetic::Scene& room() {
-  static const synthetic::Scene kRoom = synthetic::Scene::room();
-  return kRoom;
-}
-
-TrackResult walk(System& system, int from, int to) {
-  TrackResult last;
-  for (int i = from; i < to; ++i) {
-    last = system.step(room().render(static_cast<std::uint64_t>(i), on_path(i)));
-  }
-  return last;
-}
-
-/// A small map of real features.
-const MapContents& example() {
-  static const MapContents kContents = [] {
-    System system;
-    walk(system, 0, 20);
-    return system.mapper().contents();
-  }();
-  return kContents;
-}
-
-/// The same with all else that a map can have.
-MapContents with_everything() {
-  MapContents contents = example();
-  const KeyframeId shift = contents.newest;
-  contents.loops.push_back({contents.keyframes.front().id, contents.newest, on_path(3)});
-  // Room for culled keyframes between those that are there.
-  contents.keyframes.back().id = contents.newest = shift + 2;
-  for (MapPoint& point : contents.points) {
-    for (Observation& seen : point.observations) {
-      if (seen.keyframe == shift) seen.keyframe = shift + 2;
-    }
-  }
-  contents.loops.back().b = contents.newest;
-  contents.culled[shift + 1] = {contents.newest, on_path(1), 71, 72};
-  contents.culled[shift] = {shift + 1, on_path(2), 61, 62};
-  contents.keyframes.front().part = 3;
-  contents.keyframes.front().banned[4] = contents.keyframes.front().points[4] == kNoPoint;
-  contents.is_adjusting = true;
-  return contents;
-}
 
 void expect_same(const SE3& a, const SE3& b) {
   EXPECT_EQ(a.rotation().coeffs(), b.rotation().coeffs());
@@ -146,30 +74,12 @@ class SavedMap : public ::testing::Test {
     EXPECT_TRUE(loaded) << loaded.error().message;
     return std::move(loaded).value_or(MapContents{});
   }
-  /// What is said of a map that `spoil` has changed.
-  static std::string refusal(const std::function<void(MapContents&)>& spoil) {
-    MapContents contents = with_everything();
-    spoil(contents);
-    const auto decoded =
-        decode_map(encode_map(contents), contents.camera, {.levels = 8, .scale_factor = 1.2});
-    if (decoded) return "it was accepted";
-    EXPECT_EQ(decoded.error().code, ExitCode::kBadData);
-    return decoded.error().message;
-  }
-
-  /// A map that was accepted must be one that a mapper can work with.
-  static void use(const MapContents& contents) {
-    LocalMapper mapper(SlamConfig{}, MapContents(contents));
-    EXPECT_FALSE(mapper.snapshot()->keyframes.empty());
-    EXPECT_GE(mapper.keyframe_poses().size(), contents.keyframes.size());
-  }
-
   test::TempFolder folder_;
   std::filesystem::path path_ = folder_ / "home.tsgmap";
 };
 
 TEST_F(SavedMap, GivesTheSameBytesWhenItIsSavedAgain) {
-  const MapContents contents = with_everything();
+  const MapContents contents = map_with_everything();
   const MapContents loaded = saved_and_loaded(contents);
   EXPECT_EQ(encode_map(loaded), encode_map(contents));
   EXPECT_EQ(loaded.camera, contents.camera);
@@ -178,7 +88,7 @@ TEST_F(SavedMap, GivesTheSameBytesWhenItIsSavedAgain) {
 }
 
 TEST_F(SavedMap, GivesTheSameSnapshotAsTheMapThatWasSaved) {
-  System original;
+  Session original;
   walk(original, 0, 20);
   LocalMapper restored(SlamConfig{}, saved_and_loaded(original.mapper().contents()));
   expect_same(*restored.snapshot(), *original.mapper().snapshot());
@@ -192,12 +102,12 @@ TEST_F(SavedMap, GivesTheSameSnapshotAsTheMapThatWasSaved) {
 }
 
 TEST_F(SavedMap, IsTrackedInAndGrowsBitForBitAsTheOneThatWasSaved) {
-  System original;
+  Session original;
   walk(original, 0, 12);
   MapContents loaded = saved_and_loaded(original.mapper().contents());
   // Two trackers that both come into a map that is there already.
-  System one({}, original.mapper().contents());
-  System two({}, std::move(loaded));
+  Session one({}, original.mapper().contents());
+  Session two({}, std::move(loaded));
   int keyframes = 0;
   for (int i = 11; i < 30; ++i) {
     const RgbdFrame frame = room().render(static_cast<std::uint64_t>(i), on_path(i));
@@ -216,7 +126,7 @@ TEST_F(SavedMap, IsTrackedInAndGrowsBitForBitAsTheOneThatWasSaved) {
 }
 
 TEST_F(SavedMap, IsLookedForAndFoundInTheFrameOfTheOldMap) {
-  System system({}, saved_and_loaded(example()));
+  Session system({}, saved_and_loaded(example_map()));
   const RgbdFrame elsewhere = [] {
     RgbdFrame frame = synthetic::Scene({}).render(0, SE3());
     frame.colour = cv::Scalar::all(100);
@@ -238,9 +148,9 @@ TEST_F(SavedMap, IsLookedForAndFoundInTheFrameOfTheOldMap) {
 TEST_F(SavedMap, DoesNotChangeInLocalisationOnly) {
   SlamConfig config;
   config.tracker.localisation_only = true;
-  MapContents contents = example();
+  MapContents contents = example_map();
   contents.is_adjusting = true;
-  System system(config, saved_and_loaded(contents));
+  Session system(config, saved_and_loaded(contents));
   const std::string before = encode_map(system.mapper().contents());
   EXPECT_FALSE(system.mapper().is_adjusting());
   int tracked = 0;
@@ -255,9 +165,9 @@ TEST_F(SavedMap, DoesNotChangeInLocalisationOnly) {
 }
 
 TEST_F(SavedMap, KeepsItsKeyframesFromMasksOfTheNewSession) {
-  LocalMapper restored(SlamConfig{}, saved_and_loaded(example()));
+  LocalMapper restored(SlamConfig{}, saved_and_loaded(example_map()));
   InstanceSegmentation everything;
-  everything.frame_seq = example().keyframes.back().features->seq;
+  everything.frame_seq = example_map().keyframes.back().features->seq;
   everything.labels = cv::Mat(480, 640, CV_8UC1, cv::Scalar(1));
   everything.instances.push_back({.class_name = "person", .score = 0.9F, .box = {}});
   const auto before = restored.snapshot();
@@ -268,19 +178,19 @@ TEST_F(SavedMap, KeepsItsKeyframesFromMasksOfTheNewSession) {
 TEST_F(SavedMap, ShowsThePartOfTheMapThatItIsCentredOn) {
   SlamConfig config;
   config.mapper.snapshot_keyframes = 1;
-  LocalMapper restored(config, saved_and_loaded(example()));
-  ASSERT_EQ(restored.snapshot()->keyframes.front().id, example().newest);
-  const KeyframeId first = example().keyframes.front().id;
+  LocalMapper restored(config, saved_and_loaded(example_map()));
+  ASSERT_EQ(restored.snapshot()->keyframes.front().id, example_map().newest);
+  const KeyframeId first = example_map().keyframes.front().id;
   restored.centre_on(first);
   EXPECT_EQ(restored.snapshot()->keyframes.front().id, first);
-  EXPECT_EQ(restored.snapshot()->newest, example().newest);
+  EXPECT_EQ(restored.snapshot()->newest, example_map().newest);
   const auto before = restored.snapshot();
-  restored.centre_on(example().newest + 7);
+  restored.centre_on(example_map().newest + 7);
   EXPECT_EQ(restored.snapshot(), before);
 }
 
 TEST_F(SavedMap, TellsWhatIsInTheFile) {
-  MapContents contents = with_everything();
+  MapContents contents = map_with_everything();
   const auto info = save_map(path_, contents, {}, 4711);
   ASSERT_TRUE(info) << info.error().message;
   const auto file = read_map_file(path_);
@@ -296,7 +206,7 @@ TEST_F(SavedMap, TellsWhatIsInTheFile) {
 }
 
 TEST_F(SavedMap, OfOtherFeatureSettingsIsRefusedWithBoth) {
-  ASSERT_TRUE(save_map(path_, example(), {}, 1));
+  ASSERT_TRUE(save_map(path_, example_map(), {}, 1));
   FeatureConfig other;
   other.levels = 6;
   const auto loaded = load_map(path_, other);
@@ -310,109 +220,14 @@ TEST_F(SavedMap, OfAnotherDescriptorIsRefused) {
   const MapFileInfo info{.camera = synthetic::camera(),
                          .features = {.levels = 8, .scale_factor = 1.2, .pattern = 1},
                          .parts = {}};
-  ASSERT_TRUE(write_map_file(path_, info, encode_map(example())));
+  ASSERT_TRUE(write_map_file(path_, info, encode_map(example_map())));
   const auto loaded = load_map(path_, {});
   ASSERT_FALSE(loaded);
   EXPECT_THAT(loaded.error().message, HasSubstr("describes corners in another way"));
 }
 
-TEST_F(SavedMap, NothingThatContradictsItselfIsAccepted) {
-  const auto nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(refusal([](MapContents& map) { map.keyframes.clear(); }), HasSubstr("no keyframe"));
-  EXPECT_THAT(refusal([](MapContents& map) { std::swap(map.points[0], map.points[1]); }),
-              HasSubstr("out of order"));
-  EXPECT_THAT(refusal([](MapContents& map) { std::swap(map.keyframes[0], map.keyframes[1]); }),
-              HasSubstr("out of order"));
-  EXPECT_THAT(refusal([](MapContents& map) { map.next_point = 1; }), HasSubstr("not given"));
-  EXPECT_THAT(refusal([](MapContents& map) { map.newest += 1; }), HasSubstr("newest"));
-  EXPECT_THAT(refusal([](MapContents& map) { map.loops[0].a = 99'999; }), HasSubstr("loop"));
-  EXPECT_THAT(refusal([](MapContents& map) { map.recent_points = {map.next_point}; }),
-              HasSubstr("on trial"));
-  EXPECT_THAT(refusal([&](MapContents& map) { map.points[5].position.y() = nan; }),
-              HasSubstr("no place"));
-}
-
-TEST_F(SavedMap, NoObservationLeadsAstray) {
-  const auto first = [](MapContents& map) -> Observation& { return map.points[0].observations[0]; };
-  EXPECT_THAT(refusal([](MapContents& map) { map.points[0].observations.back().keyframe = 5000; }),
-              HasSubstr("not there"));
-  EXPECT_THAT(refusal([&](MapContents& map) { first(map).feature = -1; }), HasSubstr("feature"));
-  EXPECT_THAT(refusal([&](MapContents& map) { first(map).feature = 15'000; }),
-              HasSubstr("feature"));
-  EXPECT_THAT(refusal([&](MapContents& map) { map.points[1].observations[0] = first(map); }),
-              HasSubstr("shares a feature"));
-  EXPECT_THAT(refusal([&](MapContents& map) {
-                const auto feature = static_cast<std::size_t>(first(map).feature);
-                for (Keyframe& keyframe : map.keyframes) keyframe.banned[feature] = true;
-              }),
-              HasSubstr("dynamic"));
-  EXPECT_THAT(refusal([&](MapContents& map) { map.points[0].observations.clear(); }),
-              HasSubstr("no keyframe"));
-  EXPECT_THAT(refusal([&](MapContents& map) {
-                map.points[0].observations.push_back(map.points[0].observations[0]);
-              }),
-              HasSubstr("out of order"));
-}
-
-TEST_F(SavedMap, CulledKeyframesThatLeadNowhereOrInACircleAreRefused) {
-  EXPECT_THAT(refusal([](MapContents& map) { map.culled.begin()->second.parent = 77'777; }),
-              HasSubstr("leads nowhere"));
-  EXPECT_THAT(refusal([](MapContents& map) {
-                map.culled.rbegin()->second.parent = map.culled.begin()->first;
-              }),
-              HasSubstr("leads nowhere"));
-  EXPECT_THAT(refusal([](MapContents& map) { map.culled[map.newest] = {}; }),
-              HasSubstr("leads nowhere"));
-}
-
-TEST_F(SavedMap, FeaturesThatCannotBeAreRefused) {
-  const auto spoilt = [](const std::function<void(Features&)>& spoil) {
-    return refusal([&](MapContents& map) {
-      auto features = std::make_shared<Features>(*map.keyframes[0].features);
-      spoil(*features);
-      map.keyframes[0].features = features;
-    });
-  };
-  const float infinite = std::numeric_limits<float>::infinity();
-  EXPECT_THAT(spoilt([](Features& f) { f.items[3].level = 8; }), HasSubstr("pyramid"));
-  EXPECT_THAT(spoilt([](Features& f) { f.items[3].raw_x = 640; }), HasSubstr("outside"));
-  EXPECT_THAT(spoilt([](Features& f) { f.items[3].raw_y = -1; }), HasSubstr("outside"));
-  EXPECT_THAT(spoilt([&](Features& f) { f.items[3].pixel.x() = infinite; }), HasSubstr("outside"));
-  EXPECT_THAT(spoilt([](Features& f) { f.items[3].inverse_depth = -1.0F; }), HasSubstr("depth"));
-  EXPECT_THAT(spoilt([&](Features& f) { f.surface.inverse_depths[9] = infinite; }),
-              HasSubstr("depth"));
-  EXPECT_THAT(spoilt([](Features& f) { f.surface.columns += 1; }), HasSubstr("surface"));
-  EXPECT_THAT(spoilt([](Features& f) { f.items[3].verdict = static_cast<FeatureVerdict>(3); }),
-              HasSubstr("outside"));
-}
-
-/// Damage that a checksum does not see, as if somebody had made it on purpose.
-TEST_F(SavedMap, NoBytesWhateverBringTheReaderDown) {
-  const MapContents contents = with_everything();
-  const std::string good = encode_map(contents);
-  const MapFeatureSettings settings{.levels = 8, .scale_factor = 1.2};
-  std::mt19937 generator(20261122);
-  for (int i = 0; i < 60; ++i) {
-    const std::size_t at = generator() % good.size();
-    std::string cut = good.substr(0, at);
-    EXPECT_FALSE(decode_map(cut, contents.camera, settings)) << "cut at " << at;
-    std::string changed = good;
-    for (std::size_t k = at; k < std::min(at + 8, good.size()); ++k) {
-      changed[k] = static_cast<char>(generator());
-    }
-    const auto decoded = decode_map(changed, contents.camera, settings);
-    if (decoded) use(*decoded);
-  }
-  for (std::size_t at = 0; at < 64; ++at) {  // where the counts are
-    std::string changed = good;
-    changed[at] = static_cast<char>(0xff);
-    const auto decoded = decode_map(changed, contents.camera, settings);
-    if (decoded) use(*decoded);
-  }
-}
-
 TEST_F(SavedMap, IsNotWrittenOverTheOldOneWhereTheFolderIsAbsent) {
-  const auto saved = save_map(folder_ / "absent" / "x.tsgmap", example(), {}, 1);
+  const auto saved = save_map(folder_ / "absent" / "x.tsgmap", example_map(), {}, 1);
   ASSERT_FALSE(saved);
   EXPECT_EQ(saved.error().code, ExitCode::kCannotWrite);
   EXPECT_THAT(saved.error().message, HasSubstr("create the folder first"));
