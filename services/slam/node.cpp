@@ -239,7 +239,7 @@ void SlamNode::publish_diagnostics() {
 Expected<std::string> SlamNode::save_trajectory(const std::string& argument_json) {
   const auto argument = nlohmann::json::parse(argument_json);
   if (!argument.contains("folder") || !argument["folder"].is_string()) {
-    return make_error(ExitCode::kUsage, "save_trajectory needs {\"folder\": \"...\"}");
+    return make_error(ExitCode::kUsage, R"(save_trajectory needs {"folder": "..."})");
   }
   if (session_ == nullptr || trajectory_.tracked() == 0) {
     return make_error(ExitCode::kEmptyInput,

@@ -22,7 +22,7 @@ inline constexpr std::chrono::seconds kPatience{20};  // sanitizers on a busy ma
 /// tsg-slam in a process of its own, and the rest of the system played by the test.
 class SlamService : public ::testing::Test {
  protected:
-  void start(std::vector<std::string> settings) {
+  void start(const std::vector<std::string>& settings) {
     ChildCommand command{.program = TSG_BIN_DIR "/tsg-slam", .output_file = log_};
     for (const std::string& setting : settings) {
       command.arguments.insert(command.arguments.end(), {"--set", setting});
