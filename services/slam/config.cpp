@@ -31,6 +31,7 @@ void read_tracker(ConfigReader& reader, TrackerConfig& config) {
   reader.read("tracker.keyframe_overlap", config.keyframe_overlap);
   reader.read("tracker.keyframe_view_change", config.keyframe_view_change);
   reader.read("tracker.standing_still", config.standing_still);
+  reader.read("tracker.new_part_after_s", config.new_part_after_s);
 }
 
 void read_mapper(ConfigReader& reader, MapperConfig& config) {

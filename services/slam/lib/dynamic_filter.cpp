@@ -143,6 +143,12 @@ void DynamicFilter::note_pose(std::uint64_t seq, const SE3& T_world_camera) {
   }
 }
 
+void DynamicFilter::leave_world() {
+  for (PastFrame& past : past_) past.T_world_camera.reset();
+  bodies_.clear();
+  placed_ = false;
+}
+
 void DynamicFilter::move_world(const SE3& T_moved_world) {
   for (PastFrame& past : past_) {
     if (past.T_world_camera) past.T_world_camera = T_moved_world * *past.T_world_camera;

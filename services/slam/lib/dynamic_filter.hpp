@@ -37,6 +37,9 @@ class DynamicFilter {
   /// The map was moved, and what is known of past frames moves along.
   void move_world(const SE3& T_moved_world);
 
+  /// The camera goes on in a world of its own: what is known of past frames no longer says where.
+  void leave_world();
+
   /// Whether a point of the map lay on a dynamic instance in the frame of the latest mask. False
   /// where the depth or the pose of that frame is not known.
   [[nodiscard]] bool was_dynamic(const Eigen::Vector3d& p_world) const;

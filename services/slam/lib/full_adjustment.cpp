@@ -16,15 +16,16 @@ constexpr std::size_t kMinObservations = 2;
 
 }  // namespace
 
-FullAdjustment::FullAdjustment(const Map& map, const ObservationModel& model)
+FullAdjustment::FullAdjustment(const Map& map, const ObservationModel& model, MapPart part)
     : rounds_left_(kRounds), iterations_left_(kIterations) {
   for (const auto& [id, keyframe] : map.keyframes()) {
-    problem_.cameras.push_back({keyframe.T_world_camera.inverse(), keyframes_.empty()});
+    if (keyframe.part != part) continue;
+    problem_.cameras.push_back({keyframe.T_world_camera.inverse(), part_begun_by(id) == part});
     keyframes_.push_back(id);
   }
   std::unordered_set<PointId> known = {kNoPoint};
-  for (const auto& [id, keyframe] : map.keyframes()) {
-    for (const PointId point : keyframe.points) {
+  for (const KeyframeId id : keyframes_) {
+    for (const PointId point : map.keyframe(id).points) {
       if (known.insert(point).second) add_point(map, model, *map.find_point(point));
     }
   }

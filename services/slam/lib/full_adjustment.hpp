@@ -8,11 +8,12 @@
 
 namespace tsg {
 
-/// Bundle adjustment of the whole map, which takes longer than mapping may pause: works on a copy,
-/// in as many slices as it takes, while the map goes on growing. The first keyframe stays.
+/// Bundle adjustment of a whole part of the map, which takes longer than mapping may pause: works
+/// on a copy, in as many slices as it takes, while the map goes on growing. The keyframe that began
+/// the part stays.
 class FullAdjustment {
  public:
-  FullAdjustment(const Map& map, const ObservationModel& model);
+  FullAdjustment(const Map& map, const ObservationModel& model, MapPart part);
 
   /// Works until `must_stop` (may be empty) says so after some iteration, or to the end.
   void advance(const ObservationModel& model, const std::function<bool()>& must_stop);

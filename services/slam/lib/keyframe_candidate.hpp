@@ -20,7 +20,7 @@ struct PointSighting {
 /// a keyframe, as mapping may have moved the map since.
 struct KeyframeCandidate {
   KeyframeId id = 0;
-  KeyframeId reference = 0;  ///< itself for the first
+  KeyframeId reference = 0;  ///< itself for the first of a part of the map
   SE3 T_reference_camera = {};
   std::shared_ptr<const Features> features;
   std::vector<PointId> points;                ///< per feature: the map point it shows, or kNoPoint

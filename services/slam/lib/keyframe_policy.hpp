@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/geometry/se3.hpp"
+#include "services/slam/lib/local_map_snapshot.hpp"
 #include "services/slam/lib/slam_config.hpp"
 
 namespace tsg {
@@ -15,6 +16,14 @@ struct KeyframeEvidence {
   int map_inliers = 0;               ///< features of the frame that show a map point
   int reference_points = 0;          ///< map points that the reference keyframe shows
 };
+
+/// Compares a tracked frame with the keyframes of `map`. `reference` is the one of them that shares
+/// most points with it.
+[[nodiscard]] KeyframeEvidence weigh_view(const LocalMapSnapshot& map,
+                                          const SnapshotKeyframe& reference,
+                                          const Features& features,
+                                          const SE3& T_world_camera,
+                                          int map_inliers);
 
 /// True where the frame sees something new. Never while the camera stands where a keyframe is: then
 /// what is new is noise, or moves.

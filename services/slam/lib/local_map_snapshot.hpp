@@ -36,6 +36,8 @@ struct LocalMapSnapshot {
   std::uint64_t version = 0;          ///< counts up with every change of the map
   std::uint64_t corrections = 0;      ///< how often all of the map was moved, as a loop was closed
   KeyframeId newest = 0;              ///< keyframe that was inserted last
+  MapPart part = 0;                   ///< that all its keyframes belong to
+  MapPart main_part = 0;              ///< the one whose world is the frame `map`
   std::vector<SnapshotPoint> points;  ///< sorted by id
   std::vector<SnapshotKeyframe> keyframes;  ///< sorted by id; empty before the first
   std::vector<KeyframeId> recalled;  ///< that may show the view of a lost frame, likeliest first

@@ -20,6 +20,14 @@ namespace tsg {
 namespace {
 
 constexpr std::size_t kMaxRecalled = 4;  // places tried for a lost frame; bounds its time
+// A map that was left so early is not worth waiting for: the next part takes over as the main one.
+constexpr std::size_t kWorthKeeping = 10;  // keyframes
+
+std::map<MapPart, std::size_t> keyframes_by_part(const Map& map) {
+  std::map<MapPart, std::size_t> counts;
+  for (const auto& [id, keyframe] : map.keyframes()) ++counts[keyframe.part];
+  return counts;
+}
 
 }  // namespace
 
@@ -30,6 +38,13 @@ struct LocalMapper::Impl {
   void link_tracked_points(const KeyframeCandidate& candidate, Keyframe& keyframe);
   void note_sightings(const std::vector<PointSighting>& sightings);
   void cull_keyframe(KeyframeId id);
+  void begin_part(MapPart part);
+  /// The keyframe that stands for `id`, culled or not, and where `id` is seen from it.
+  struct Place {
+    KeyframeId ancestor = 0;
+    SE3 T_ancestor_camera;
+  };
+  [[nodiscard]] Place place_of(KeyframeId id) const;
   [[nodiscard]] SE3 pose_of(KeyframeId id) const;
   void publish(LocalMapSnapshot snapshot);
 
@@ -38,6 +53,8 @@ struct LocalMapper::Impl {
   Map map;
   LoopCloser closer;
   KeyframeId newest = 0;
+  MapPart main_part = 0;
+  std::vector<KeyframeId> recalled;    ///< what the snapshot is of until the next keyframe
   KeyframeId first_of_session = 0;     ///< earlier ones come from a map that was kept
   std::vector<PointId> recent_points;  ///< on trial, see cull_recent_points()
   std::map<KeyframeId, CulledKeyframe> culled;
@@ -69,7 +86,7 @@ void LocalMapper::Impl::note_sightings(const std::vector<PointSighting>& sightin
 void LocalMapper::Impl::cull_keyframe(KeyframeId id) {
   const Keyframe& keyframe = map.keyframe(id);
   const auto neighbours = map.covisible_with(keyframe);
-  const KeyframeId parent = neighbours.empty() ? 0 : neighbours.front().keyframe;
+  const KeyframeId parent = neighbours.empty() ? keyframe.part : neighbours.front().keyframe;
   culled[id] = {
       .parent = parent,
       .T_parent_camera = map.keyframe(parent).T_world_camera.inverse() * keyframe.T_world_camera,
@@ -79,7 +96,7 @@ void LocalMapper::Impl::cull_keyframe(KeyframeId id) {
   map.remove_keyframe(id);
 }
 
-SE3 LocalMapper::Impl::pose_of(KeyframeId id) const {
+LocalMapper::Impl::Place LocalMapper::Impl::place_of(KeyframeId id) const {
   SE3 T_ancestor_camera;
   auto place = culled.find(id);
   while (place != culled.end()) {
@@ -87,12 +104,22 @@ SE3 LocalMapper::Impl::pose_of(KeyframeId id) const {
     id = place->second.parent;
     place = culled.find(id);
   }
-  return map.keyframe(id).T_world_camera * T_ancestor_camera;
+  return {id, T_ancestor_camera};
+}
+
+SE3 LocalMapper::Impl::pose_of(KeyframeId id) const {
+  const Place place = place_of(id);
+  return map.keyframe(place.ancestor).T_world_camera * place.T_ancestor_camera;
+}
+
+void LocalMapper::Impl::begin_part(MapPart part) {
+  if (keyframes_by_part(map)[main_part] < kWorthKeeping) main_part = part;
 }
 
 void LocalMapper::Impl::publish(LocalMapSnapshot snapshot) {
   snapshot.version = ++version;
   snapshot.corrections = corrections;
+  snapshot.main_part = main_part;
   published = std::make_shared<const LocalMapSnapshot>(std::move(snapshot));
 }
 
@@ -105,6 +132,9 @@ LocalMapper::LocalMapper(const SlamConfig& config, MapContents&& contents)
   impl_->culled = std::move(contents.culled);
   impl_->recent_points = std::move(contents.recent_points);
   impl_->newest = contents.newest;
+  const auto parts = keyframes_by_part(impl_->map);
+  impl_->main_part =
+      std::ranges::max_element(parts, {}, [](const auto& part) { return part.second; })->first;
   impl_->first_of_session = contents.newest + 1;
   const bool may_adjust = !config.tracker.localisation_only;
   impl_->closer.take_over(impl_->map, std::move(contents.loops),
@@ -117,10 +147,18 @@ LocalMapper& LocalMapper::operator=(LocalMapper&&) noexcept = default;
 
 void LocalMapper::insert(KeyframeCandidate&& candidate) {
   impl_->published.reset();
-  const bool is_first = impl_->map.keyframes().empty();
-  const SE3 T_world_reference = is_first ? SE3() : impl_->pose_of(candidate.reference);
+  impl_->recalled.clear();
+  MapPart part = part_begun_by(candidate.id);
+  SE3 T_world_reference;
+  if (candidate.reference == candidate.id) {
+    impl_->begin_part(part);
+  } else {
+    T_world_reference = impl_->pose_of(candidate.reference);
+    part = impl_->map.keyframe(impl_->place_of(candidate.reference).ancestor).part;
+  }
   Keyframe& keyframe =
       impl_->map.add_keyframe({.id = candidate.id,
+                               .part = part,
                                .features = candidate.features,
                                .T_world_camera = T_world_reference * candidate.T_reference_camera,
                                .points = std::vector<PointId>(candidate.features->size(), kNoPoint),
@@ -151,7 +189,9 @@ void LocalMapper::refine(const std::stop_token& stop) {
     if (!redundant) break;
     impl_->cull_keyframe(*redundant);
   }
-  if (impl_->closer.close(impl_->map, impl_->newest, limits.must_stop)) ++impl_->corrections;
+  if (impl_->closer.close(impl_->map, impl_->newest, impl_->main_part, limits.must_stop)) {
+    ++impl_->corrections;
+  }
 }
 
 bool LocalMapper::is_adjusting() const { return impl_->closer.is_adjusting(); }
@@ -192,23 +232,32 @@ bool LocalMapper::apply_mask(const InstanceSegmentation& mask) {
 void LocalMapper::recall(const Features& view) {
   std::vector<KeyframeId> recalled;
   for (const PlaceCandidate& candidate : impl_->closer.recall(view)) {
-    if (recalled.size() < kMaxRecalled) recalled.push_back(candidate.keyframe);
+    if (recalled.size() == kMaxRecalled) break;
+    // A snapshot has one world.
+    const auto part_of = [this](KeyframeId id) { return impl_->map.keyframe(id).part; };
+    const bool fits = recalled.empty() || part_of(candidate.keyframe) == part_of(recalled.front());
+    if (fits) recalled.push_back(candidate.keyframe);
   }
   if (recalled.empty()) return;
-  impl_->publish(build_recall_snapshot(impl_->map, impl_->config.mapper, impl_->newest, recalled));
+  impl_->recalled = std::move(recalled);
+  impl_->published.reset();
 }
 
 void LocalMapper::centre_on(KeyframeId id) {
   if (impl_->map.find_keyframe(id) == nullptr) return;
   LocalMapSnapshot snapshot = build_snapshot(impl_->map, impl_->config.mapper, id);
   snapshot.newest = impl_->newest;
+  impl_->recalled.clear();
   impl_->publish(std::move(snapshot));
 }
 
 std::shared_ptr<const LocalMapSnapshot> LocalMapper::snapshot() {
   if (impl_->published) return impl_->published;
   LocalMapSnapshot snapshot;
-  if (!impl_->map.keyframes().empty()) {
+  if (!impl_->recalled.empty()) {
+    snapshot =
+        build_recall_snapshot(impl_->map, impl_->config.mapper, impl_->newest, impl_->recalled);
+  } else if (!impl_->map.keyframes().empty()) {
     snapshot = build_snapshot(impl_->map, impl_->config.mapper, impl_->newest);
   }
   impl_->publish(std::move(snapshot));
@@ -218,10 +267,12 @@ std::shared_ptr<const LocalMapSnapshot> LocalMapper::snapshot() {
 std::vector<KeyframePose> LocalMapper::keyframe_poses() const {
   std::map<KeyframeId, KeyframePose> poses;
   for (const auto& [id, keyframe] : impl_->map.keyframes()) {
-    poses[id] = {id, keyframe.features->seq, keyframe.features->stamp_ns, keyframe.T_world_camera};
+    poses[id] = {id, keyframe.features->seq, keyframe.features->stamp_ns, keyframe.T_world_camera,
+                 keyframe.part};
   }
   for (const auto& [id, keyframe] : impl_->culled) {
-    poses[id] = {id, keyframe.seq, keyframe.stamp_ns, impl_->pose_of(id)};
+    const MapPart part = impl_->map.keyframe(impl_->place_of(id).ancestor).part;
+    poses[id] = {id, keyframe.seq, keyframe.stamp_ns, impl_->pose_of(id), part};
   }
   std::vector<KeyframePose> sorted;
   sorted.reserve(poses.size());

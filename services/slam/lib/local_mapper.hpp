@@ -21,6 +21,7 @@ struct KeyframePose {
   std::uint64_t seq = 0;  ///< of its RgbdFrame
   std::int64_t stamp_ns = 0;
   SE3 T_world_camera;
+  MapPart part = 0;  ///< whose world it is
 };
 
 /// Owns the map: takes keyframes in, makes and merges map points, adjusts the newest part.
@@ -60,7 +61,7 @@ class LocalMapper {
   bool apply_mask(const InstanceSegmentation& mask);
 
   /// Tracking has lost the camera, and this is what it sees: the snapshot becomes the part of the
-  /// map that looks like it, until the map changes. As it was where nothing does.
+  /// map that looks like it, until a keyframe comes. As it was where nothing does.
   void recall(const Features& view);
 
   /// Makes the snapshot the part of the map around keyframe `id`, until the map changes: for a

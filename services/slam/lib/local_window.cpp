@@ -17,11 +17,11 @@ LocalWindow::LocalWindow(const Map& map,
                          const MapperConfig& config,
                          KeyframeId newest) {
   const Keyframe& centre = map.keyframe(newest);
-  add_camera(centre, newest == 0);
+  add_camera(centre, part_begun_by(newest) == centre.part);
   for (const Covisibility& neighbour : map.covisible_with(centre)) {
     if (static_cast<int>(keyframes_.size()) >= config.window_keyframes) break;
     if (neighbour.shared < config.min_shared_points) break;
-    add_camera(map.keyframe(neighbour.keyframe), neighbour.keyframe == 0);
+    add_camera(map.keyframe(neighbour.keyframe), part_begun_by(neighbour.keyframe) == centre.part);
   }
   collect_points(map);
   add_outer_keyframes(map, config);

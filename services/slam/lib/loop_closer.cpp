@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "services/slam/lib/part_merging.hpp"
+
 namespace tsg {
 namespace {
 
@@ -29,21 +31,28 @@ void LoopCloser::remove(KeyframeId id, KeyframeId parent, const SE3& T_parent_ca
 void LoopCloser::take_over(const Map& map, std::vector<LoopEdge> loops, bool is_adjusting) {
   for (const auto& [id, keyframe] : map.keyframes()) add(keyframe);
   loops_ = std::move(loops);
-  if (is_adjusting) adjustment_.emplace(map, model_);
+  if (is_adjusting) adjustment_.emplace(map, model_, map.keyframes().rbegin()->second.part);
 }
 
-bool LoopCloser::close(Map& map, KeyframeId newest, const std::function<bool()>& must_stop) {
+bool LoopCloser::close(Map& map,
+                       KeyframeId newest,
+                       MapPart main_part,
+                       const std::function<bool()>& must_stop) {
   if (!config_.loop.enabled) return false;
   const auto loop = detector_.detect(map, index_, newest);
   if (!loop) return false;
+  const bool joins_parts = map.keyframe(newest).part != map.keyframe(loop->seen_before).part;
+  merge_parts_of(map, model_, *loop, main_part);
   loops_.push_back({loop->seen_before, loop->newest, loop->T_before_newest});
-  if (!correct_map(map, model_, loops_, must_stop)) {
+  const MapPart part = map.keyframe(newest).part;
+  // Parts that were just joined fit each other already; the loops within them are one more reason.
+  if (!correct_map(map, model_, loops_, part, must_stop) && !joins_parts) {
     loops_.pop_back();
     return false;
   }
   join_sides(map, model_, config_.mapper, loop->seen_before, loop->newest);
   detector_.reset();
-  adjustment_.emplace(map, model_);
+  adjustment_.emplace(map, model_, part);
   return true;
 }
 

@@ -28,8 +28,12 @@ class LoopCloser {
   /// due.
   void take_over(const Map& map, std::vector<LoopEdge> loops, bool is_adjusting);
 
-  /// Looks whether `newest` closes a loop, and if so corrects the map. True if it was moved.
-  bool close(Map& map, KeyframeId newest, const std::function<bool()>& must_stop);
+  /// Looks whether `newest` closes a loop, and if so corrects the map; where it shows a place of
+  /// another part of the map, the two become one (merge_parts_of). True if the map was moved.
+  bool close(Map& map,
+             KeyframeId newest,
+             MapPart main_part,
+             const std::function<bool()>& must_stop);
 
   /// Whether a full adjustment has been begun or is due.
   [[nodiscard]] bool is_adjusting() const { return adjustment_.has_value(); }

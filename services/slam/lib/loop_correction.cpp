@@ -72,17 +72,19 @@ std::vector<PointId> points_seen_by(const Map& map, const std::vector<KeyframeId
 
 }  // namespace
 
-PoseGraph build_essential_graph(const Map& map, const std::vector<LoopEdge>& loops) {
+PoseGraph build_essential_graph(const Map& map, const std::vector<LoopEdge>& loops, MapPart part) {
   PoseGraph graph;
   NodeOfKeyframe nodes;
   const Keyframe* previous = nullptr;
   for (const auto& [id, keyframe] : map.keyframes()) {
+    if (keyframe.part != part) continue;
     nodes[id] = graph.nodes.size();
-    graph.nodes.push_back({keyframe.T_world_camera, graph.nodes.empty()});
+    graph.nodes.push_back({keyframe.T_world_camera, part_begun_by(id) == part});
     add_edges(map, keyframe, previous, nodes, graph);
     previous = &keyframe;
   }
   for (const LoopEdge& loop : loops) {
+    if (!nodes.contains(loop.a)) continue;
     graph.edges.push_back(make_edge(nodes.at(loop.a), nodes.at(loop.b), loop.T_a_b, 1.0));
   }
   return graph;
@@ -91,13 +93,14 @@ PoseGraph build_essential_graph(const Map& map, const std::vector<LoopEdge>& loo
 bool correct_map(Map& map,
                  const ObservationModel& model,
                  const std::vector<LoopEdge>& loops,
+                 MapPart part,
                  const std::function<bool()>& must_stop) {
-  PoseGraph graph = build_essential_graph(map, loops);
+  PoseGraph graph = build_essential_graph(map, loops, part);
   if (!relax(graph, must_stop)) return false;
   KeyframeTargets targets;
   std::size_t node = 0;
   for (const auto& [id, keyframe] : map.keyframes()) {
-    targets[id] = graph.nodes[node++].T_world_camera;
+    if (keyframe.part == part) targets[id] = graph.nodes[node++].T_world_camera;
   }
   move_map(map, model, targets);
   return true;

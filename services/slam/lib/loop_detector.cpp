@@ -22,9 +22,11 @@ constexpr double kMaxViewChange = 1.0;   // from further aside features do not m
 double path_length(const Map& map, KeyframeId from, KeyframeId to) {
   double metres = 0.0;
   const Keyframe* last = nullptr;
+  const MapPart part = map.keyframe(to).part;
   const auto end = map.keyframes().upper_bound(to);
   for (auto place = map.keyframes().find(from); place != end; ++place) {
     const Keyframe& keyframe = place->second;
+    if (keyframe.part != part) continue;
     if (last != nullptr) {
       metres += (keyframe.T_world_camera.translation() - last->T_world_camera.translation()).norm();
     }
@@ -54,7 +56,10 @@ std::unordered_set<KeyframeId> LoopDetector::connected_with(const Map& map,
                                                             const Keyframe& newest) const {
   std::unordered_set<KeyframeId> connected = {newest.id};
   for (KeyframeId back = 1; back <= kRecent && back <= newest.id; ++back) {
-    connected.insert(newest.id - back);
+    const auto recent = map.keyframes().find(newest.id - back);
+    if (recent != map.keyframes().end() && recent->second.part == newest.part) {
+      connected.insert(recent->first);
+    }
   }
   std::vector<KeyframeId> rim = {newest.id};
   for (int hop = 0; hop < kHops; ++hop) {
@@ -75,7 +80,7 @@ std::optional<Loop> LoopDetector::detect(const Map& map,
     miss();
     return std::nullopt;
   }
-  weigh(newest, *view);
+  weigh(map, newest, *view);
   if (suspicion_->confirmations < config_.loop.confirmations) return std::nullopt;
   suspicion_.reset();
   const SE3& T_world_before = map.keyframe(view->candidate).T_world_camera;
@@ -107,7 +112,7 @@ std::optional<VerifiedView> LoopDetector::follow_up(
   const Keyframe* nearest = nullptr;
   double least = kMaxViewChange;
   for (const auto& [id, keyframe] : map.keyframes()) {
-    if (connected.contains(id)) continue;
+    if (keyframe.part != suspicion_->part || connected.contains(id)) continue;
     const double change =
         view_change(keyframe.T_world_camera.inverse() * T_world_camera, kSceneDepth);
     if (change >= least) continue;
@@ -124,13 +129,16 @@ std::optional<VerifiedView> LoopDetector::follow_up(
 bool LoopDetector::is_plausible(const Map& map,
                                 const Keyframe& newest,
                                 const VerifiedView& view) const {
+  if (map.keyframe(view.candidate).part != newest.part) return true;
   const double most =
       kDriftAllowance + config_.loop.max_drift_share * path_length(map, view.candidate, newest.id);
   const SE3 T_newest_corrected = newest.T_world_camera.inverse() * view.T_world_camera;
   return T_newest_corrected.translation().norm() <= most && T_newest_corrected.angle() <= most;
 }
 
-void LoopDetector::weigh(const Keyframe& newest, const VerifiedView& view) {
+void LoopDetector::weigh(const Map& map, const Keyframe& newest, const VerifiedView& view) {
+  const MapPart part = map.keyframe(view.candidate).part;
+  if (suspicion_ && suspicion_->part != part) suspicion_.reset();
   const SE3 T_corrected_world = view.T_world_camera * newest.T_world_camera.inverse();
   if (suspicion_) {
     // Compared at the camera: there the two have to agree, not at the world's far origin.
@@ -142,7 +150,7 @@ void LoopDetector::weigh(const Keyframe& newest, const VerifiedView& view) {
     }
   }
   const int before = suspicion_ ? suspicion_->confirmations : 0;
-  suspicion_ = Suspicion{T_corrected_world, before + 1, 0};
+  suspicion_ = Suspicion{part, T_corrected_world, before + 1, 0};
 }
 
 void LoopDetector::miss() {

@@ -19,7 +19,7 @@ struct Loop {
 /// Watches keyframes for places seen before. A loop is reported once several keyframes in a row,
 /// each by itself, tell the same correction of the map, and the correction is not more than the
 /// path since can have drifted: places that are built alike are further apart than that, or show
-/// their difference as the camera moves on.
+/// their difference as the camera moves on. Between parts of the map nothing is known of the path.
 /// Deterministic; not thread-safe: LoopCloser owns it.
 class LoopDetector {
  public:
@@ -37,6 +37,7 @@ class LoopDetector {
  private:
   /// A loop that is not certain yet.
   struct Suspicion {
+    MapPart part = 0;  ///< that the place seen before is in
     SE3 T_corrected_world;
     int confirmations = 0;
     int misses = 0;
@@ -55,7 +56,7 @@ class LoopDetector {
   [[nodiscard]] bool is_plausible(const Map& map,
                                   const Keyframe& newest,
                                   const VerifiedView& view) const;
-  void weigh(const Keyframe& newest, const VerifiedView& view);
+  void weigh(const Map& map, const Keyframe& newest, const VerifiedView& view);
   void miss();
 
   const ObservationModel& model_;

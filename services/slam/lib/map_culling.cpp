@@ -65,8 +65,9 @@ std::optional<KeyframeId> find_redundant_keyframe(const Map& map,
                                                   const MapperConfig& config,
                                                   KeyframeId newest) {
   for (const Covisibility& neighbour : map.covisible_with(map.keyframe(newest))) {
-    if (neighbour.keyframe == 0) continue;
-    if (is_redundant(map, config, map.keyframe(neighbour.keyframe))) return neighbour.keyframe;
+    const Keyframe& keyframe = map.keyframe(neighbour.keyframe);
+    if (part_begun_by(keyframe.id) == keyframe.part) continue;
+    if (is_redundant(map, config, keyframe)) return keyframe.id;
   }
   return std::nullopt;
 }

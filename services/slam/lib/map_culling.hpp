@@ -14,7 +14,7 @@ namespace tsg {
 void cull_recent_points(Map& map, KeyframeId newest, std::vector<PointId>& recent);
 
 /// A keyframe around `newest` that others make redundant: at least config.redundant_share of its
-/// points are seen, as large or larger, by three others. Never the first nor the newest.
+/// points are seen, as large or larger, by three others. Never the first of a part nor the newest.
 [[nodiscard]] std::optional<KeyframeId> find_redundant_keyframe(const Map& map,
                                                                 const MapperConfig& config,
                                                                 KeyframeId newest);

@@ -1,6 +1,5 @@
 #include "services/slam/lib/map_motion.hpp"
 
-#include <optional>
 #include <unordered_set>
 
 #include "common/core/check.hpp"
@@ -12,11 +11,13 @@ namespace {
 std::map<KeyframeId, SE3> motions(const Map& map, const KeyframeTargets& targets) {
   TSG_CHECK(!targets.empty());
   std::map<KeyframeId, SE3> T_moved_world;
-  std::optional<SE3> last;
+  std::map<MapPart, SE3> last;
   for (const auto& [id, keyframe] : map.keyframes()) {
     const auto target = targets.find(id);
-    if (target != targets.end()) last = target->second * keyframe.T_world_camera.inverse();
-    T_moved_world[id] = last.value_or(SE3());
+    if (target != targets.end()) {
+      last[keyframe.part] = target->second * keyframe.T_world_camera.inverse();
+    }
+    T_moved_world[id] = last[keyframe.part];
   }
   return T_moved_world;
 }

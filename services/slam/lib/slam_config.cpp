@@ -70,6 +70,8 @@ std::vector<std::string> TrackerConfig::problems() const {
   require(standing_still > 0.0, "standing_still must be > 0", found);
   require(keyframe_view_change > standing_still && std::isfinite(keyframe_view_change),
           "keyframe_view_change must be > standing_still", found);
+  require(new_part_after_s >= 0.0 && std::isfinite(new_part_after_s),
+          "new_part_after_s must be >= 0", found);
   return found;
 }
 

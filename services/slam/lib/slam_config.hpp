@@ -44,6 +44,7 @@ struct TrackerConfig {
   double keyframe_overlap = 0.8;      // insert below this share of the features found in the map
   double keyframe_view_change = 0.1;  // insert beyond it: translation / depth of scene, or radians
   double standing_still = 0.02;       // never insert below it, the same measure
+  double new_part_after_s = 3.0;      // lost for so long: begin a new part of the map; 0 = never
   bool localisation_only = false;  // the map is given and stays as it is: no keyframe, no removal
 
   [[nodiscard]] std::vector<std::string> problems() const;

@@ -28,7 +28,8 @@ std::vector<KeyframeId> by_usefulness(const Map& map,
   }
   std::vector<std::pair<double, KeyframeId>> others;
   for (const auto& [id, keyframe] : map.keyframes()) {
-    if (!known.contains(id)) others.emplace_back(view_distance(centre, keyframe), id);
+    if (known.contains(id) || keyframe.part != centre.part) continue;
+    others.emplace_back(view_distance(centre, keyframe), id);
   }
   std::sort(others.begin(), others.end());
   for (const auto& [distance, id] : others) order.push_back(id);
@@ -72,6 +73,7 @@ LocalMapSnapshot copy_keyframes(const Map& map,
                                 const std::vector<KeyframeId>& order) {
   LocalMapSnapshot snapshot;
   snapshot.newest = newest;
+  snapshot.part = map.keyframe(order.front()).part;
   snapshot.map_keyframes = map.keyframes().size();
   snapshot.map_points = map.point_count();
   std::unordered_set<PointId> known;

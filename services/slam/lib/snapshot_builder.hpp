@@ -13,8 +13,8 @@ namespace tsg {
                                               const MapperConfig& config,
                                               KeyframeId newest);
 
-/// Copies what finding a lost camera needs: `recalled`, the keyframes that may show its view, and
-/// their covisible neighbours.
+/// Copies what finding a lost camera needs: `recalled`, the keyframes that may show its view, all
+/// of one part of the map and at least one, and their covisible neighbours.
 [[nodiscard]] LocalMapSnapshot build_recall_snapshot(const Map& map,
                                                      const MapperConfig& config,
                                                      KeyframeId newest,

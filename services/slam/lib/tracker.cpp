@@ -12,24 +12,6 @@
 #include "services/slam/lib/pose_finder.hpp"
 
 namespace tsg {
-namespace {
-
-constexpr int kEstablished = 2;        // observations of a point that is no mere candidate
-constexpr double kDefaultDepth = 2.0;  // metres, of a scene without any depth
-
-double median_depth(const Features& features) {
-  std::vector<float> inverse_depths;
-  for (const Feature& feature : features.items) {
-    if (feature.has_depth()) inverse_depths.push_back(feature.inverse_depth);
-  }
-  if (inverse_depths.empty()) return kDefaultDepth;
-  const auto middle =
-      inverse_depths.begin() + static_cast<std::ptrdiff_t>(inverse_depths.size() / 2);
-  std::nth_element(inverse_depths.begin(), middle, inverse_depths.end());
-  return 1.0 / *middle;
-}
-
-}  // namespace
 
 struct Tracker::Impl {
   Impl(const SlamConfig& slam_config,
@@ -43,7 +25,9 @@ struct Tracker::Impl {
         finder(config, model, on_stage) {}
 
   void start_map(const std::shared_ptr<const Features>& features, TrackResult& result);
-  void enter_map(const LocalMapSnapshot& map);
+  void enter_map(const LocalMapSnapshot& map, std::int64_t stamp_ns);
+  [[nodiscard]] const LocalMapSnapshot& follow_part(const LocalMapSnapshot& map);
+  [[nodiscard]] bool is_lost_for_long(std::int64_t stamp_ns) const;
   void follow_map(const LocalMapSnapshot& map);
   [[nodiscard]] SE3 predict(std::int64_t stamp_ns) const;
 
@@ -55,6 +39,7 @@ struct Tracker::Impl {
               TrackResult& result);
   [[nodiscard]] std::string why_lost() const;
   void lose(TrackResult& result, std::string reason);
+  void begin_part(const std::shared_ptr<const Features>& features, TrackResult& result);
   [[nodiscard]] KeyframeId choose_reference(const LocalMapSnapshot& map,
                                             const FrameMatches& matches) const;
   void propose_keyframe(const LocalMapSnapshot& map, int inliers, TrackResult& result);
@@ -69,6 +54,8 @@ struct Tracker::Impl {
 
   bool started = false;
   bool lost = false;
+  std::int64_t lost_since_ns = 0;
+  MapPart part = 0;  ///< that `last` is in
   std::optional<TrackedFrame> last;
   Vector6d twist_per_second = Vector6d::Zero();  ///< log of T_last_now for one second
   KeyframeId next_keyframe = 0;
@@ -84,6 +71,7 @@ void Tracker::Impl::start_map(const std::shared_ptr<const Features>& features,
     return;
   }
   started = true;
+  part = part_begun_by(next_keyframe);
   last = TrackedFrame{.features = features,
                       .points = std::vector<PointId>(features->size(), kNoPoint),
                       .reference = next_keyframe,
@@ -91,17 +79,53 @@ void Tracker::Impl::start_map(const std::shared_ptr<const Features>& features,
                       .T_world_camera = SE3()};
   result.state = TrackingState::kTracking;
   result.T_world_camera = SE3();
+  result.part = part;
   result.reference = next_keyframe;
   filter.note_pose(features->seq, SE3());
   result.keyframe = make_candidate();
 }
 
 /// The map was there before the camera: it is lost in it.
-void Tracker::Impl::enter_map(const LocalMapSnapshot& map) {
+void Tracker::Impl::enter_map(const LocalMapSnapshot& map, std::int64_t stamp_ns) {
   started = true;
   lost = true;
+  lost_since_ns = stamp_ns;
   next_keyframe = map.newest + 1;
   corrections = map.corrections;
+}
+
+/// What of the map has the world that `last` is in. Nothing has while mapping does not know of a
+/// part that was just begun; and where it has become a part of another, that is the world now.
+const LocalMapSnapshot& Tracker::Impl::follow_part(const LocalMapSnapshot& map) {
+  static const LocalMapSnapshot kNothing;
+  if (lost || map.keyframes.empty() || map.part == part) return map;
+  if (map.find_keyframe(last->reference) != nullptr) {
+    part = map.part;
+    return map;
+  }
+  if (part_begun_by(last->reference) == part) return kNothing;
+  lost = true;  // among places that were never tracked from here
+  lost_since_ns = last->features->stamp_ns;
+  return map;
+}
+
+bool Tracker::Impl::is_lost_for_long(std::int64_t stamp_ns) const {
+  const double limit_s = config.tracker.new_part_after_s;
+  if (limit_s <= 0.0 || config.tracker.localisation_only) return false;
+  return static_cast<double>(stamp_ns - lost_since_ns) * 1e-9 >= limit_s;
+}
+
+/// Where nothing that is known can be found again, mapping goes on all the same.
+void Tracker::Impl::begin_part(const std::shared_ptr<const Features>& features,
+                               TrackResult& result) {
+  if (features->counts.with_depth < config.tracker.min_features_to_start) return;
+  filter.leave_world();
+  sightings.clear();
+  start_map(features, result);
+  result.reason.clear();
+  result.relocalised = true;
+  lost = false;
+  twist_per_second = Vector6d::Zero();
 }
 
 /// Brings the last pose to where mapping has moved its keyframe since.
@@ -160,10 +184,12 @@ void Tracker::Impl::accept(const std::shared_ptr<const Features>& features,
   }
   result.relocalised = lost;
   lost = false;
+  if (!map.keyframes.empty()) part = map.part;
   last = std::move(now);
   filter.note_pose(features->seq, last->T_world_camera);
   result.state = TrackingState::kTracking;
   result.T_world_camera = last->T_world_camera;
+  result.part = part;
   result.reference = last->reference;
   result.T_reference_camera = last->T_reference_camera;
   result.inliers = fix.inliers;
@@ -177,6 +203,7 @@ std::string Tracker::Impl::why_lost() const {
 }
 
 void Tracker::Impl::lose(TrackResult& result, std::string reason) {
+  if (!lost) lost_since_ns = result.stamp_ns;
   lost = true;
   result.state = TrackingState::kLost;
   result.reason = std::move(reason);
@@ -207,19 +234,8 @@ void Tracker::Impl::propose_keyframe(const LocalMapSnapshot& map,
   const bool last_is_mapped = !map.keyframes.empty() && map.newest + 1 == next_keyframe;
   const SnapshotKeyframe* reference = map.find_keyframe(last->reference);
   if (!last_is_mapped || reference == nullptr) return;
-  const double depth = median_depth(*last->features);
-  KeyframeEvidence evidence{.nearest_view_change = std::numeric_limits<double>::max(),
-                            .map_inliers = inliers};
-  for (const SnapshotKeyframe& keyframe : map.keyframes) {
-    const SE3 T_keyframe_camera = keyframe.T_world_camera.inverse() * last->T_world_camera;
-    evidence.nearest_view_change =
-        std::min(evidence.nearest_view_change, view_change(T_keyframe_camera, depth));
-  }
-  const int established = map.keyframes.size() > kEstablished ? kEstablished : 1;
-  for (const PointId id : reference->points) {
-    const SnapshotPoint* point = id == kNoPoint ? nullptr : map.find_point(id);
-    if (point != nullptr && point->observations >= established) ++evidence.reference_points;
-  }
+  const KeyframeEvidence evidence =
+      weigh_view(map, *reference, *last->features, last->T_world_camera, inliers);
   if (is_worth_a_keyframe(evidence, config.tracker)) result.keyframe = make_candidate();
 }
 
@@ -254,16 +270,17 @@ std::shared_ptr<const Features> Tracker::extract(const RgbdFrame& frame,
 }
 
 TrackResult Tracker::track(const std::shared_ptr<const Features>& features,
-                           const LocalMapSnapshot& map) {
+                           const LocalMapSnapshot& whole_map) {
   TrackResult result{.seq = features->seq,
                      .stamp_ns = features->stamp_ns,
                      .features = features->counts,
                      .mask_age_frames = features->mask_age_frames};
-  if (!impl_->started && map.keyframes.empty()) {
+  if (!impl_->started && whole_map.keyframes.empty()) {
     impl_->start_map(features, result);
     return result;
   }
-  if (!impl_->started) impl_->enter_map(map);
+  if (!impl_->started) impl_->enter_map(whole_map, features->stamp_ns);
+  const LocalMapSnapshot& map = impl_->follow_part(whole_map);
   impl_->follow_map(map);
   const std::optional<Fix> fix =
       impl_->finder.find({.features = *features,
@@ -273,6 +290,7 @@ TrackResult Tracker::track(const std::shared_ptr<const Features>& features,
                           .is_lost = impl_->lost});
   if (!fix) {
     impl_->lose(result, impl_->why_lost());
+    if (impl_->is_lost_for_long(features->stamp_ns)) impl_->begin_part(features, result);
     return result;
   }
   result.matches = fix->matches.count();

@@ -22,18 +22,20 @@ enum class TrackingState {
   kLost,  ///< no pose; every frame tries to find the map again
 };
 
-/// World is the optical frame of the first keyframe: x right, y down, z forward.
+/// World is the optical frame of the keyframe that began the part of the map: x right, y down, z
+/// forward.
 struct TrackResult {
   std::uint64_t seq = 0;
   std::int64_t stamp_ns = 0;
   TrackingState state = TrackingState::kInitialising;
   std::optional<SE3> T_world_camera = {};  ///< set exactly when state == kTracking
+  MapPart part = 0;                        ///< of the map, whose world it is
   KeyframeId reference = 0;                ///< the keyframe that shares most map points
   SE3 T_reference_camera = {};             ///< the same pose, relative to it
   /// The way from the previous frame's camera, both poses by the same map: free of what was
   /// corrected in between. Set exactly where the previous frame was tracked too.
   std::optional<SE3> T_previous_camera = {};
-  bool relocalised = false;  ///< tracking again after it was lost
+  bool relocalised = false;  ///< tracking again after it was lost, maybe in a new part of the map
   int matches = 0;           ///< features matched to points of the map or the last frame
   int inliers = 0;           ///< of these, kept by the last pose optimisation
   FeatureCounts features;

@@ -18,9 +18,13 @@ class TrajectoryRecorder {
 
   /// Poses as they were when each frame was tracked.
   [[nodiscard]] Trajectory live() const;
-  /// Poses by where the keyframes are now. `keyframes` must be sorted by id and hold every
+  /// Poses by where the keyframes are now, of the frames in the longest part of the map: the worlds
+  /// of parts have nothing to do with each other. `keyframes` must be sorted by id and hold every
   /// reference (LocalMapper::keyframe_poses()); frames whose reference is not there are left out.
   [[nodiscard]] Trajectory corrected(const std::vector<KeyframePose>& keyframes) const;
+
+  /// The part of the map in which most frames were tracked, the older one of two equals.
+  [[nodiscard]] MapPart longest_part(const std::vector<KeyframePose>& keyframes) const;
 
   [[nodiscard]] std::size_t tracked() const { return entries_.size(); }
   [[nodiscard]] std::size_t lost() const { return lost_; }  ///< after the first pose
