@@ -135,6 +135,10 @@ void SlamNode::update_map(const RgbdFrame& frame,
   if (is_keyframe) session_->mapping.insert(std::move(*result.keyframe));
   if (!result.T_world_camera) return;
   if (config_.core.tracker.localisation_only) session_->mapping.centre_on(result.reference);
+  if (!is_in_map(result)) {  // the map server has no place for it
+    if (is_keyframe) ++statistics_.keyframes_elsewhere;
+    return;
+  }
   const bool is_own_mask = mask != nullptr && mask->frame_seq == frame.seq;
   const KeyframePlace place{.T_map_camera = Odometry::T_map_world() * *result.T_world_camera,
                             .reference = result.reference,
@@ -146,16 +150,25 @@ void SlamNode::publish_corrections() {
   auto corrected = session_->mapping.corrected_poses();
   if (corrected == corrected_) return;
   corrected_ = std::move(corrected);
-  log_.info("map corrected by a loop", {{"keyframes", corrected_->size()}});
-  if (const auto published = keyframes_.publish_poses(*corrected_); !published) {
+  std::vector<KeyframePose> in_map = *corrected_;
+  const MapPart main_part = session_->mapping.snapshot()->main_part;
+  std::erase_if(in_map, [main_part](const KeyframePose& pose) { return pose.part != main_part; });
+  log_.info("map corrected by a loop",
+            {{"keyframes", in_map.size()}, {"in_other_parts", corrected_->size() - in_map.size()}});
+  if (const auto published = keyframes_.publish_poses(in_map); !published) {
     log_.warn("corrected poses not published", {{"why", published.error().message}});
   }
+}
+
+bool SlamNode::is_in_map(const TrackResult& result) const {
+  return result.part == session_->mapping.snapshot()->main_part;
 }
 
 void SlamNode::publish_pose(const TrackResult& result) {
   const auto pose = odometry_.update(result);
   if (!pose) return;
-  if (const auto published = poses_.publish(*pose); !published) {
+  const std::string map_frame = is_in_map(result) ? "map" : "map_" + std::to_string(result.part);
+  if (const auto published = poses_.publish(*pose, map_frame); !published) {
     log_.warn("pose not published", {{"why", published.error().message}});
   }
 }
@@ -167,6 +180,10 @@ void SlamNode::publish_status(const RgbdFrame& frame,
   message.header = {
       .seq = frame.seq, .stamp_ns = frame.stamp_ns, .publish_monotonic_ns = monotonic_ns()};
   message.frames_dropped = frames_.missed();
+  if (result.T_world_camera && !is_in_map(result)) {
+    set_reason(message, "in part " + std::to_string(result.part) +
+                            " of the map, which has not been joined with the rest yet");
+  }
   if (const auto published = status_.publish(message); !published) {
     log_.warn("status not published", {{"why", published.error().message}});
   }
@@ -196,6 +213,10 @@ void SlamNode::send(const std::optional<DenseKeyframe>& keyframe) {
 }
 
 void SlamNode::log_state(const TrackResult& result) {
+  if (result.T_world_camera && std::exchange(part_, result.part) != result.part) {
+    log_.info("in another part of the map",
+              {{"part", result.part}, {"is_main", is_in_map(result)}});
+  }
   if (result.state == state_) return;
   state_ = result.state;
   const std::string event = std::string("tracking state: ") + to_text(state_);

@@ -64,6 +64,8 @@ class SlamNode {
   [[nodiscard]] const InstanceSegmentation* mask_for(const RgbdFrame& frame);
   [[nodiscard]] TrackResult track(const RgbdFrame& frame, const InstanceSegmentation* mask);
   void update_map(const RgbdFrame& frame, TrackResult& result, const InstanceSegmentation* mask);
+  /// Whether the pose is in the frame `map`, rather than in a part of the map of its own.
+  [[nodiscard]] bool is_in_map(const TrackResult& result) const;
   void publish_corrections();
   void publish_pose(const TrackResult& result);
   void publish_status(const RgbdFrame& frame, const TrackResult& result, const FrameTimes& times);
@@ -93,6 +95,7 @@ class SlamNode {
   TrajectoryRecorder trajectory_;
   std::shared_ptr<const std::vector<KeyframePose>> corrected_;  // as published last
   NodeStatistics statistics_;
+  MapPart part_ = 0;  // of the map, that the camera was in last
   TrackingState state_ = TrackingState::kInitialising;
   std::int64_t last_stamp_ns_ = 0;
   Stopwatch since_diagnostics_;

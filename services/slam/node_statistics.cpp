@@ -37,6 +37,7 @@ nlohmann::json NodeStatistics::to_json() const {
           {"keyframes_sent", keyframes_sent},
           {"keyframes_failed", keyframes_failed},
           {"keyframes_without_mask", keyframes_without_mask},
+          {"keyframes_elsewhere", keyframes_elsewhere},
           {"masks_received", masks_received},
           {"mask_age_frames", tsg::to_json(mask_age_frames)},
           {"stage_ms",

@@ -18,6 +18,7 @@ struct NodeStatistics {
   std::uint64_t keyframes_sent = 0;
   std::uint64_t keyframes_failed = 0;  ///< no shared memory to send them in
   std::uint64_t keyframes_without_mask = 0;
+  std::uint64_t keyframes_elsewhere = 0;  ///< in parts of the map that are not joined with it yet
   std::uint64_t masks_received = 0;
   SampleWindow extract_ms;
   SampleWindow match_ms;

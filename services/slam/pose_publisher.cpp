@@ -8,7 +8,6 @@
 namespace tsg {
 namespace {
 
-const std::string kMapFrame = "map";
 const std::string kOdomFrame = "odom";
 const std::string kCameraFrame = "camera";
 
@@ -32,16 +31,16 @@ geometry_msgs_msg_dds__TransformStamped_ to_ros_stamped(std::int64_t stamp_ns,
 
 PosePublisher::PosePublisher(Bus& bus) : pose_(bus), odometry_(bus), transforms_(bus) {}
 
-Expected<void> PosePublisher::publish(const OdometryPose& pose) {
-  return publish_pose(pose).and_then([&] { return publish_odometry(pose); }).and_then([&] {
-    return publish_transforms(pose);
-  });
+Expected<void> PosePublisher::publish(const OdometryPose& pose, const std::string& map_frame) {
+  return publish_pose(pose, map_frame)
+      .and_then([&] { return publish_odometry(pose); })
+      .and_then([&] { return publish_transforms(pose, map_frame); });
 }
 
-Expected<void> PosePublisher::publish_pose(const OdometryPose& pose) {
+Expected<void> PosePublisher::publish_pose(const OdometryPose& pose, const std::string& map_frame) {
   topics::Pose::Message message{};
   message.header.stamp = to_ros_time(pose.stamp_ns);
-  message.header.frame_id = lend(kMapFrame);
+  message.header.frame_id = lend(map_frame);
   message.pose = to_ros_pose(pose.T_map_camera);
   return pose_.publish(message);
 }
@@ -59,9 +58,10 @@ Expected<void> PosePublisher::publish_odometry(const OdometryPose& pose) {
   return odometry_.publish(message);
 }
 
-Expected<void> PosePublisher::publish_transforms(const OdometryPose& pose) {
+Expected<void> PosePublisher::publish_transforms(const OdometryPose& pose,
+                                                 const std::string& map_frame) {
   const std::vector transforms = {
-      to_ros_stamped(pose.stamp_ns, kMapFrame, kOdomFrame, pose.T_map_odom),
+      to_ros_stamped(pose.stamp_ns, map_frame, kOdomFrame, pose.T_map_odom),
       to_ros_stamped(pose.stamp_ns, kOdomFrame, kCameraFrame, pose.T_odom_camera)};
   topics::Transforms::Message message{};
   lend(transforms, message.transforms);

@@ -14,11 +14,13 @@ Trajectory in_map(Trajectory trajectory) {
   return trajectory;
 }
 
-Trajectory to_trajectory(const std::vector<KeyframePose>& keyframes, KeyframeId first) {
+Trajectory to_trajectory(const std::vector<KeyframePose>& keyframes,
+                         KeyframeId first,
+                         MapPart part) {
   Trajectory trajectory;
   trajectory.reserve(keyframes.size());
   for (const KeyframePose& keyframe : keyframes) {
-    if (keyframe.id < first) continue;
+    if (keyframe.id < first || keyframe.part != part) continue;
     trajectory.push_back({keyframe.stamp_ns, keyframe.T_world_camera});
   }
   return trajectory;
@@ -34,10 +36,12 @@ Expected<void> save_results(const std::filesystem::path& folder,
     return write_trajectory(folder / name, in_map(std::move(trajectory)),
                             StampDecimals::kNanoseconds);
   };
+  const MapPart part = recorder.longest_part(keyframes);
   return make_folder(folder)
       .and_then([&] { return write("trajectory.txt", recorder.corrected(keyframes)); })
-      .and_then([&] { return write("trajectory_live.txt", recorder.live()); })
-      .and_then([&] { return write("keyframes.txt", to_trajectory(keyframes, first_of_session)); });
+      .and_then([&] { return write("trajectory_live.txt", recorder.live(part)); })
+      .and_then(
+          [&] { return write("keyframes.txt", to_trajectory(keyframes, first_of_session, part)); });
 }
 
 }  // namespace tsg

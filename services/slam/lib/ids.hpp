@@ -12,6 +12,8 @@ using PointId = std::uint64_t;     ///< of a map point; never used twice
 /// id of the keyframe that began it, which is never culled.
 using MapPart = std::uint32_t;
 
+[[nodiscard]] inline MapPart part_begun_by(KeyframeId id) { return static_cast<MapPart>(id); }
+
 inline constexpr PointId kNoPoint = std::numeric_limits<PointId>::max();
 
 }  // namespace tsg

@@ -46,7 +46,7 @@ class LoopCloserTest : public testing::Test {
       closer.add(made_.insert(wall_, truth[i], T_map_camera));
       truth_.push_back(truth[i]);
       error_before_ = worst_error();
-      if (closer.close(made_.map, i, {})) return true;
+      if (closer.close(made_.map, i, 0, {})) return true;
     }
     return false;
   }

@@ -50,8 +50,6 @@ struct Covisibility {
   int shared = 0;
 };
 
-[[nodiscard]] inline MapPart part_begun_by(KeyframeId id) { return static_cast<MapPart>(id); }
-
 /// Keyframes, map points and the observations that join them. Both ends of an observation are kept
 /// in step here and nowhere else. Owned by LocalMapper.
 class Map {

@@ -44,8 +44,8 @@ TEST(MergePart, MovesOnePartWithItsPointsAndLeavesTheOtherAlone) {
   EXPECT_EQ(point_of(0)->position, of_first);
 }
 
-/// A camera that walks along two walls side by side, one step of 10 cm a frame, and is blind now and
-/// then. The world of truth is where it starts.
+/// A camera that walks along two walls side by side, one step of 10 cm a frame, and is blind now
+/// and then. The world of truth is where it starts.
 class PartsTest : public testing::Test {
  protected:
   explicit PartsTest(const SlamConfig& config = {})

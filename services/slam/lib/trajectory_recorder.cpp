@@ -19,14 +19,16 @@ void TrajectoryRecorder::record(const TrackResult& result) {
     if (!entries_.empty()) ++lost_;
     return;
   }
-  entries_.push_back(
-      {result.stamp_ns, result.reference, result.T_reference_camera, *result.T_world_camera});
+  entries_.push_back({result.stamp_ns, result.part, result.reference, result.T_reference_camera,
+                      *result.T_world_camera});
 }
 
-Trajectory TrajectoryRecorder::live() const {
+Trajectory TrajectoryRecorder::live(MapPart part) const {
   Trajectory poses;
   poses.reserve(entries_.size());
-  for (const Entry& entry : entries_) poses.push_back({entry.stamp_ns, entry.T_world_camera});
+  for (const Entry& entry : entries_) {
+    if (entry.part == part) poses.push_back({entry.stamp_ns, entry.T_world_camera});
+  }
   return poses;
 }
 

@@ -16,8 +16,8 @@ class TrajectoryRecorder {
   /// Frames without a pose are counted, not recorded.
   void record(const TrackResult& result);
 
-  /// Poses as they were when each frame was tracked.
-  [[nodiscard]] Trajectory live() const;
+  /// Poses as they were when each frame was tracked, of those that were in `part` of the map then.
+  [[nodiscard]] Trajectory live(MapPart part) const;
   /// Poses by where the keyframes are now, of the frames in the longest part of the map: the worlds
   /// of parts have nothing to do with each other. `keyframes` must be sorted by id and hold every
   /// reference (LocalMapper::keyframe_poses()); frames whose reference is not there are left out.
@@ -32,6 +32,7 @@ class TrajectoryRecorder {
  private:
   struct Entry {
     std::int64_t stamp_ns;
+    MapPart part;
     KeyframeId reference;
     SE3 T_reference_camera;
     SE3 T_world_camera;

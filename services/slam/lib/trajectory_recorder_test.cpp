@@ -26,7 +26,7 @@ TEST(TrajectoryRecorder, MovesFramesWithTheirKeyframe) {
   ASSERT_EQ(corrected.size(), 2U);
   EXPECT_EQ(corrected[1].stamp_ns, 20);
   EXPECT_DOUBLE_EQ(corrected[1].T_world_camera.translation().x(), 6.0);
-  EXPECT_DOUBLE_EQ(recorder.live()[1].T_world_camera.translation().x(), 1.0);
+  EXPECT_DOUBLE_EQ(recorder.live(0)[1].T_world_camera.translation().x(), 1.0);
 }
 
 TEST(TrajectoryRecorder, CountsLostFramesAfterTheFirstPoseOnly) {

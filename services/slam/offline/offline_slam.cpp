@@ -105,8 +105,8 @@ void OfflineSlam::map(TrackResult& result, const InstanceSegmentation* mask) {
 }
 
 OfflineRun OfflineSlam::finish() {
-  run_.live = recorder_.live();
   run_.keyframes = mapper_.keyframe_poses();
+  run_.live = recorder_.live(recorder_.longest_part(run_.keyframes));
   run_.corrected = recorder_.corrected(run_.keyframes);
   const auto snapshot = mapper_.snapshot();
   run_.map_keyframes = snapshot->map_keyframes;
