@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/bus/command.hpp"
@@ -106,6 +107,38 @@ TEST_F(SlamService, SaysWhyThereIsNoPoseAndPublishesNone) {
   EXPECT_STRNE((*status)->reason, "");
   EXPECT_FALSE(bus_.subscriber<topics::Pose>().take({}, 100ms));
   EXPECT_EQ(track(wall_.frame(2, 0.0, 0.0)), tsg_TRACKING_OK) << "the view is back";
+}
+
+TEST_F(SlamService, CarriedElsewhereItGoesOnInAFrameOfItsOwnUntilItIsBack) {
+  start({"slam.lockstep=true", "slam.expect_masks=false", "slam.tracker.new_part_after_s=0.5"});
+  ASSERT_TRUE(bus_.watch<topics::Pose>(kPatience)) << content_of(log_);
+  auto& poses = bus_.subscriber<topics::Pose>();
+  std::uint64_t seq = 0;
+  const auto step = [&](const TexturedWall& wall, double x_m, double y_m) {
+    EXPECT_EQ(track(wall.frame(seq++, x_m, y_m)), tsg_TRACKING_OK) << content_of(log_);
+    const auto pose = poses.take({}, kPatience);
+    return pose ? std::string((*pose)->header.frame_id) : "no pose";
+  };
+  // Up and down: the wall is not wide enough for the ten keyframes of a map worth keeping.
+  for (int i = 0; i < 90; ++i) {
+    const double turn = 0.2 * i;
+    EXPECT_EQ(step(wall_, 0.02 * i - 0.9, 0.5 * std::sin(turn)), "map");
+  }
+  const TexturedWall elsewhere(2.0, 77);
+  EXPECT_EQ(track(elsewhere.frame(seq++, 0.0, 0.0)), tsg_TRACKING_LOST);
+  seq += 20;
+  const std::string own_frame = step(elsewhere, 0.0, 0.0);
+  EXPECT_THAT(own_frame, testing::StartsWith("map_"));
+  send(elsewhere.frame(seq, 0.02, 0.0));
+  const auto status = status_of(seq++);
+  ASSERT_TRUE(status);
+  EXPECT_EQ((*status)->state, tsg_TRACKING_OK);
+  EXPECT_THAT((*status)->reason, HasSubstr("not been joined"));
+  const auto pose = poses.take({}, kPatience);
+  ASSERT_TRUE(pose);
+  EXPECT_EQ((*pose)->header.frame_id, own_frame);
+  EXPECT_EQ(track(wall_.frame(seq++, 0.0, 0.0)), tsg_TRACKING_LOST) << "it is recalled first";
+  EXPECT_EQ(step(wall_, 0.0, 0.0), "map");
 }
 
 TEST_F(SlamService, RejectsAFrameThatMakesNoSenseAndLivesOn) {
