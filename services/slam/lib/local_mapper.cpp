@@ -15,6 +15,7 @@
 #include "services/slam/lib/map_culling.hpp"
 #include "services/slam/lib/point_fusion.hpp"
 #include "services/slam/lib/snapshot_builder.hpp"
+#include "services/slam/lib/triangulation.hpp"
 
 namespace tsg {
 namespace {
@@ -166,9 +167,12 @@ void LocalMapper::insert(KeyframeCandidate&& candidate) {
   impl_->newest = candidate.id;
   impl_->note_sightings(candidate.sightings);
   impl_->link_tracked_points(candidate, keyframe);
-  const std::vector<PointId> added = add_points_from_depth(impl_->map, impl_->model, keyframe);
-  impl_->recent_points.insert(impl_->recent_points.end(), added.begin(), added.end());
+  const auto put_on_trial = [this](const std::vector<PointId>& added) {
+    impl_->recent_points.insert(impl_->recent_points.end(), added.begin(), added.end());
+  };
+  put_on_trial(add_points_from_depth(impl_->map, impl_->model, keyframe));
   fuse_with_neighbours(impl_->map, impl_->model, impl_->config.mapper, candidate.id);
+  put_on_trial(add_points_by_triangulation(impl_->map, impl_->model, impl_->config, candidate.id));
   cull_recent_points(impl_->map, impl_->newest, impl_->recent_points);
   impl_->closer.add(keyframe);
 }

@@ -39,7 +39,8 @@ class LocalMapper {
   LocalMapper(const LocalMapper& other) = delete;
   LocalMapper& operator=(const LocalMapper& other) = delete;
 
-  /// Adds the keyframe with new map points from its depth; fuses duplicates with its neighbours.
+  /// Adds the keyframe with new map points from its depth; fuses duplicates with its neighbours;
+  /// where there is no depth, makes points of what it sees together with a neighbour.
   void insert(KeyframeCandidate&& candidate);
 
   /// Local bundle adjustment around the newest keyframe, then removal of what proved bad or

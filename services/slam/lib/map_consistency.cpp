@@ -27,6 +27,14 @@ class Checker {
 
   [[nodiscard]] bool has_keyframe(KeyframeId id) const { return keyframes_.contains(id); }
 
+  /// Whether each part of the map has the keyframe that began it.
+  [[nodiscard]] bool have_parts_a_beginning() const {
+    return std::ranges::all_of(contents_.keyframes, [this](const Keyframe& keyframe) {
+      const auto first = keyframes_.find(keyframe.part);
+      return first != keyframes_.end() && first->second.keyframe->part == keyframe.part;
+    });
+  }
+
   /// The reason why an observation cannot be; empty where it can.
   [[nodiscard]] std::string check(const MapPoint& point, const Observation& observation) {
     const auto text = [&](const char* what) {
@@ -38,6 +46,9 @@ class Checker {
     const auto feature = static_cast<std::size_t>(observation.feature);
     if (observation.feature < 0 || feature >= is_taken.size()) {
       return text(" is seen by a feature that is not there, in keyframe ");
+    }
+    if (keyframe->part != keyframes_.at(point.observations.front().keyframe).keyframe->part) {
+      return text(" is seen from two parts of the map, one of them that of keyframe ");
     }
     if (is_taken[feature]) return text(" shares a feature with another, in keyframe ");
     if (keyframe->banned[feature]) return text(" is seen on something dynamic, in keyframe ");
@@ -103,6 +114,8 @@ std::string find_inconsistency(const MapContents& contents) {
       (!contents.culled.empty() && contents.culled.rbegin()->first > contents.newest)) {
     return "its newest keyframe is not there, or not the newest";
   }
+  if (!checker.have_parts_a_beginning())
+    return "a part of the map lacks the keyframe that began it";
   if (!checker.are_culled_anchored()) return "a culled keyframe leads nowhere";
   for (const LoopEdge& loop : contents.loops) {
     if (!checker.has_keyframe(loop.a) || !checker.has_keyframe(loop.b) || loop.a == loop.b) {

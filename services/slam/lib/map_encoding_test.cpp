@@ -71,6 +71,15 @@ TEST(MapEncoding, NoObservationLeadsAstray) {
               HasSubstr("out of order"));
 }
 
+TEST(MapEncoding, PartsThatNobodyBeganOrThatShareAPointAreRefused) {
+  EXPECT_THAT(refusal([](MapContents& map) { map.keyframes.back().part = 77'777; }),
+              HasSubstr("lacks the keyframe that began it"));
+  EXPECT_THAT(refusal([](MapContents& map) {
+                map.keyframes.back().part = part_begun_by(map.keyframes.back().id);
+              }),
+              HasSubstr("two parts of the map"));
+}
+
 TEST(MapEncoding, CulledKeyframesThatLeadNowhereOrInACircleAreRefused) {
   EXPECT_THAT(refusal([](MapContents& map) { map.culled.begin()->second.parent = 77'777; }),
               HasSubstr("leads nowhere"));

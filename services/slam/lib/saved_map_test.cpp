@@ -191,6 +191,10 @@ TEST_F(SavedMap, ShowsThePartOfTheMapThatItIsCentredOn) {
 
 TEST_F(SavedMap, TellsWhatIsInTheFile) {
   MapContents contents = map_with_everything();
+  Keyframe elsewhere = contents.keyframes.back();  // a part that has just begun
+  elsewhere.id = ++contents.newest;
+  elsewhere.part = part_begun_by(elsewhere.id);
+  contents.keyframes.push_back(elsewhere);
   const auto info = save_map(path_, contents, {}, 4711);
   ASSERT_TRUE(info) << info.error().message;
   const auto file = read_map_file(path_);
@@ -200,9 +204,9 @@ TEST_F(SavedMap, TellsWhatIsInTheFile) {
   EXPECT_EQ(info->keyframes(), contents.keyframes.size());
   EXPECT_EQ(info->points(), contents.points.size());
   ASSERT_EQ(info->parts.size(), 2U);
-  EXPECT_EQ(info->parts[1].part, 3U);
+  EXPECT_EQ(info->parts[1].part, elsewhere.part);
   EXPECT_EQ(info->parts[1].keyframes, 1U);
-  EXPECT_GT(info->parts[1].extent_m.x(), 1.0) << "the wall is some metres wide";
+  EXPECT_GT(info->parts[0].extent_m.x(), 1.0) << "the wall is some metres wide";
 }
 
 TEST_F(SavedMap, OfOtherFeatureSettingsIsRefusedWithBoth) {

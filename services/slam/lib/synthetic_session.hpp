@@ -75,7 +75,6 @@ inline MapContents map_with_everything() {
   contents.loops.back().b = contents.newest;
   contents.culled[shift + 1] = {contents.newest, on_path(1), 71, 72};
   contents.culled[shift] = {shift + 1, on_path(2), 61, 62};
-  contents.keyframes.front().part = 3;
   contents.keyframes.front().banned[4] = contents.keyframes.front().points[4] == kNoPoint;
   contents.is_adjusting = true;
   return contents;
