@@ -13,6 +13,7 @@ using simulation::RoomDescription;
 using simulation::SceneDescription;
 
 constexpr double kWallReach = 0.3;  // metres; doors and windows: scene.hpp
+constexpr double kCorner = 0.11;    // metres at a wall's end: half the next wall, and a pillar
 
 /// A wall seen from above.
 struct Wall {
@@ -50,8 +51,9 @@ std::string complaint(const OpeningDescription& opening, const SceneDescription&
       const bool is_along = at.x() >= 0.0 && at.x() <= wall.length_m();
       if (!is_along || at.y() > kWallReach) continue;
       const double half_m = 0.5 * opening.width_m;
-      if (at.x() >= half_m && at.x() + half_m <= wall.length_m()) return "";
-      found = "reaches beyond the end of its wall; move it or make it narrower";
+      const bool fits = at.x() >= half_m + kCorner && at.x() + half_m <= wall.length_m() - kCorner;
+      if (fits) return "";
+      found = "leaves less than 0.11 m to the end of its wall; move it or make it narrower";
     }
   }
   return found;

@@ -297,7 +297,12 @@ const std::vector<Mistake> kMistakes{
      {"3: doors[0].at_m: is on no wall; put it within 0.3 m of one"}},
     {"WindowRoundTheCorner",
      "windows: [{at_m: [0.2, 5]}]\n",
-     {"3: windows[0].at_m: reaches beyond the end of its wall; move it or make it narrower"}},
+     {"3: windows[0].at_m: leaves less than 0.11 m to the end of its wall; move it or make it "
+      "narrower"}},
+    {"DoorWithoutRoomForItsPost",
+     "doors: [{at_m: [0, 0.5], width_m: 0.9}]\n",
+     {"3: doors[0].at_m: leaves less than 0.11 m to the end of its wall; move it or make it "
+      "narrower"}},
     {"UnknownAction",
      "people:\n  - start: {at_m: [1, 1]}\n    actions:\n      - wlak: {path_m: [[1, 1]]}\n",
      {"6: people[0].actions[0].wlak: unknown key; did you mean walk?"}},
