@@ -131,7 +131,7 @@ class RawWriter {
   DdsEntity writer_;
   std::unique_ptr<Waiter> match_waiter_;
   std::unique_ptr<Waiter> settle_waiter_;
-  int settled_count_ = 0;  // matches that shared memory has had time to follow
+  std::uint32_t settled_matches_ = 0;  // of all so far: shared memory has had time to follow
   bool on_shared_memory_ = false;
 };
 

@@ -78,12 +78,15 @@ bool RawWriter::wait_for_match(int count,
   while (match_count() < count) {
     if (match_waiter_->wait_until(deadline, stop) != WaitResult::kTriggered) return false;
   }
-  if (!on_shared_memory_ || settled_count_ >= count) return true;
+  // All that ever were, not those at present: a reader that starts anew has to settle anew.
+  dds_publication_matched_status_t status{};
+  dds_get_publication_matched_status(writer_.handle(), &status);
+  if (!on_shared_memory_ || settled_matches_ == status.total_count) return true;
   if (settle_waiter_->wait_until(Waiter::deadline_after(kSettleTime), stop) ==
       WaitResult::kStopped) {
     return false;
   }
-  settled_count_ = count;
+  settled_matches_ = status.total_count;
   return true;
 }
 

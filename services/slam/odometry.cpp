@@ -3,6 +3,18 @@
 #include "common/core/time.hpp"
 
 namespace tsg {
+namespace {
+
+/// Covariance of a pose T_a_camera in the axes of a, from that of a left-hand twist of its inverse.
+Matrix6d in_axes_of(const SE3& T_a_camera, const Matrix6d& covariance) {
+  // exp(xi) * T_camera_a moves the camera by -R_a_camera * xi.
+  Matrix6d to_a = Matrix6d::Zero();
+  to_a.topLeftCorner<3, 3>() = T_a_camera.rotation_matrix();
+  to_a.bottomRightCorner<3, 3>() = T_a_camera.rotation_matrix();
+  return to_a * covariance * to_a.transpose();
+}
+
+}  // namespace
 
 SE3 Odometry::T_map_world() {
   Eigen::Matrix3d R_map_world;
@@ -38,6 +50,7 @@ std::optional<OdometryPose> Odometry::update(const TrackResult& result) {
   }
   pose.T_map_camera = T_map_world() * *result.T_world_camera;
   pose.T_odom_camera = T_odom_camera_;
+  pose.covariance = in_axes_of(T_odom_camera_, result.covariance);
   pose.T_map_odom = pose.T_map_camera * T_odom_camera_.inverse();
   last_ = {result.stamp_ns, result.reference, result.T_reference_camera, *result.T_world_camera};
   return pose;

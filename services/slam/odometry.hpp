@@ -15,6 +15,9 @@ struct OdometryPose {
   SE3 T_map_camera;
   SE3 T_odom_camera;
   SE3 T_map_odom;
+  /// How uncertain the pose is, in the axes of `odom`: position (m), then rotation about the fixed
+  /// axes (rad), as ROS has it. Of this frame in the map as it is: drift is not in it.
+  Matrix6d covariance = Matrix6d::Zero();
   /// Velocity of the camera in its own axes (m/s, then rad/s); absent after a gap.
   std::optional<Vector6d> twist_camera;
 };

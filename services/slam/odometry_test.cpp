@@ -40,6 +40,16 @@ TEST(Odometry, UpOfTheCameraIsZOfTheMap) {
   EXPECT_TRUE((Odometry::T_map_world() * above).isApprox(Eigen::Vector3d::UnitZ()));
 }
 
+TEST(Odometry, TurnsTheCovarianceOfTheCameraIntoTheAxesOfOdom) {
+  TrackResult result = result_at(0, 0, SE3(), SE3());
+  result.covariance.diagonal() << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0;  // right, down, forward
+  const auto pose = Odometry().update(result);
+  ASSERT_TRUE(pose);
+  Vector6d expected;
+  expected << 3.0, 1.0, 2.0, 6.0, 4.0, 5.0;  // forward, left, up
+  EXPECT_TRUE(pose->covariance.diagonal().isApprox(expected, 1e-12));
+}
+
 TEST(Odometry, DoesNotJumpWhenTheMapIsCorrected) {
   Odometry odometry;
   odometry.update(result_at(0, 0, SE3(), SE3()));

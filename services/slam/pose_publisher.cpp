@@ -51,6 +51,8 @@ Expected<void> PosePublisher::publish_odometry(const OdometryPose& pose) {
   message.header.frame_id = lend(kOdomFrame);
   message.child_frame_id = lend(kCameraFrame);
   message.pose.pose = to_ros_pose(pose.T_odom_camera);
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.pose.covariance) =
+      pose.covariance;
   if (pose.twist_camera) {
     message.twist.twist.linear = to_ros_vector(pose.twist_camera->head<3>());
     message.twist.twist.angular = to_ros_vector(pose.twist_camera->tail<3>());

@@ -8,6 +8,7 @@
 #include "common/dataset/trajectory.hpp"
 #include "tests/component/slam_service.hpp"
 #include "tests/support/stop_limit.hpp"
+#include "tests/support/wait.hpp"
 
 namespace tsg::test {
 namespace {
@@ -34,6 +35,9 @@ TEST_F(SlamService, PublishesThePoseOfEveryFrame) {
     EXPECT_NEAR((*pose)->pose.position.y, -x_m, 0.004) << "right of the camera is -y of the map";
     EXPECT_NEAR((*pose)->pose.position.z, 0.0, 0.004);
     EXPECT_NEAR((*odom)->pose.pose.position.y, -x_m, 0.004);
+    const double variance = (*odom)->pose.covariance[7];  // of y
+    EXPECT_EQ(variance > 0.0, seq > 0) << "the first frame is where the world begins";
+    EXPECT_LT(variance, 0.005 * 0.005);
   }
   EXPECT_TRUE(stop().is_success()) << content_of(log_);
 }
@@ -163,6 +167,20 @@ TEST_F(SlamService, RejectsAFrameThatMakesNoSenseAndLivesOn) {
   EXPECT_THAT((*other_camera)->reason, HasSubstr("size or intrinsics changed"));
   EXPECT_EQ(track(wall_.frame(1, 0.0, 0.0)), tsg_TRACKING_OK);
   EXPECT_EQ(track(wall_.frame(1, 0.0, 0.0)), tsg_TRACKING_LOST) << "the same stamp again";
+}
+
+TEST_F(SlamService, GetsTheFirstFrameThatIsSentOnceItHasStartedAnew) {
+  for (std::uint64_t seq = 0; seq < 6; ++seq) {
+    start({"slam.lockstep=true", "slam.expect_masks=false"});
+    static_cast<void>(bus_.subscriber<topics::TrackingStatus>());
+    send(wall_.frame(seq, 0.0, 0.0));
+    const auto status = bus_.wait_for<topics::TrackingStatus>(
+        2s, [seq](const auto& answer) { return answer.header.seq == seq; });
+    EXPECT_TRUE(status) << "start " << seq;
+    ASSERT_TRUE(stop().is_success()) << content_of(log_);
+    ASSERT_TRUE(eventually(kPatience,
+                           [&] { return bus_.publisher<topics::Rgbd>().subscriber_count() == 0; }));
+  }
 }
 
 TEST_F(SlamService, SavesTheTrajectoryOnCommand) {

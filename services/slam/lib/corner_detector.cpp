@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <opencv2/features2d.hpp>
 #include <tuple>
 
@@ -26,6 +27,33 @@ struct Ranked {
 
 bool comes_first(const Ranked& a, const Ranked& b) {
   return std::tie(a.rank, b.response, a.y, a.x) < std::tie(b.rank, a.response, b.y, b.x);
+}
+
+/// All corners, ranked by strength within their cells; cell after cell. Sorting the few of a cell
+/// is much faster than sorting all.
+template <typename CellOf>
+std::vector<Ranked> by_cell(const std::vector<cv::KeyPoint>& corners,
+                            std::size_t cells,
+                            const CellOf& cell_of) {
+  std::vector<std::size_t> ends(cells + 1, 0);
+  for (const cv::KeyPoint& corner : corners) ++ends[cell_of(corner) + 1];
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<Ranked> ranked(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const cv::KeyPoint& corner = corners[i];
+    ranked[ends[cell_of(corner)]++] = {0, corner.response, static_cast<int>(corner.pt.y),
+                                       static_cast<int>(corner.pt.x), i};
+  }
+  auto first = ranked.begin();
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const auto last = ranked.begin() + static_cast<std::ptrdiff_t>(ends[cell]);
+    std::sort(first, last, comes_first);  // by strength: all ranks are 0 so far
+    for (auto corner = first; corner != last; ++corner) {
+      corner->rank = static_cast<int>(corner - first);
+    }
+    first = last;
+  }
+  return ranked;
 }
 
 }  // namespace
@@ -80,19 +108,12 @@ void keep_spread(std::vector<cv::KeyPoint>& corners, const cv::Size& size, int w
   const int cell = std::max(1, static_cast<int>(std::sqrt(area / wanted)));
   const int columns = size.width / cell + 1;
   const int rows = size.height / cell + 1;
-  std::vector<Ranked> ranked(corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const int x = static_cast<int>(corners[i].pt.x);
-    const int y = static_cast<int>(corners[i].pt.y);
-    ranked[i] = {0, corners[i].response, y, x, i};
-  }
-  std::sort(ranked.begin(), ranked.end(), comes_first);  // by strength: all ranks are 0
-  const int cells = columns * rows;
-  std::vector<int> counts(static_cast<std::size_t>(cells), 0);
-  for (Ranked& corner : ranked) {
-    const int own_cell = corner.y / cell * columns + corner.x / cell;
-    corner.rank = counts[static_cast<std::size_t>(own_cell)]++;
-  }
+  const auto cell_of = [&](const cv::KeyPoint& corner) {
+    return static_cast<std::size_t>(static_cast<int>(corner.pt.y) / cell * columns +
+                                    static_cast<int>(corner.pt.x) / cell);
+  };
+  const auto cells = static_cast<std::size_t>(columns * rows);
+  std::vector<Ranked> ranked = by_cell(corners, cells, cell_of);
   std::nth_element(ranked.begin(), ranked.begin() + wanted, ranked.end(), comes_first);
   ranked.resize(static_cast<std::size_t>(wanted));
   std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {

@@ -23,4 +23,20 @@ const SnapshotPoint* LocalMapSnapshot::find_point(PointId id) const {
   return find_by_id(points, id);
 }
 
+std::optional<KeyframeId> LocalMapSnapshot::keyframe_sharing_most(std::vector<PointId> seen) const {
+  std::sort(seen.begin(), seen.end());
+  std::optional<KeyframeId> best;
+  std::ptrdiff_t most = 0;
+  for (const SnapshotKeyframe& keyframe : keyframes) {
+    const auto shared =
+        std::count_if(keyframe.points.begin(), keyframe.points.end(), [&](PointId id) {
+          return id != kNoPoint && std::binary_search(seen.begin(), seen.end(), id);
+        });
+    if (shared <= most) continue;
+    most = shared;
+    best = keyframe.id;
+  }
+  return best;
+}
+
 }  // namespace tsg

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/geometry/se3.hpp"
@@ -47,6 +48,10 @@ struct LocalMapSnapshot {
   /// Null where the keyframe or point is not part of the snapshot.
   [[nodiscard]] const SnapshotKeyframe* find_keyframe(KeyframeId id) const;
   [[nodiscard]] const SnapshotPoint* find_point(PointId id) const;
+
+  /// The keyframe that sees most of `seen` (may hold kNoPoint), the oldest of several; none where
+  /// none sees any.
+  [[nodiscard]] std::optional<KeyframeId> keyframe_sharing_most(std::vector<PointId> seen) const;
 };
 
 }  // namespace tsg

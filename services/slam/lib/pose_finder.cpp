@@ -47,7 +47,7 @@ std::optional<Fix> PoseFinder::by_last_frame(const PoseQuery& query) const {
   begin(TrackingStage::kOptimise);
   const PoseEstimate estimate = matches.optimise(model_, query.T_predicted_world);
   if (estimate.inliers < config_.tracker.min_inliers) return std::nullopt;
-  return Fix{estimate.T_camera_world, std::move(matches), estimate.inliers};
+  return Fix{estimate.T_camera_world, std::move(matches), estimate.inliers, estimate.covariance};
 }
 
 /// The pose by the depth images, with what few corners there are.
@@ -67,7 +67,8 @@ std::optional<Fix> PoseFinder::by_surface(const PoseQuery& query) const {
                                                  prior->T_camera_world, kSurfaceRadius);
   begin(TrackingStage::kOptimise);
   const PoseEstimate estimate = matches.optimise(model_, prior->T_camera_world, *prior);
-  Fix fix{estimate.T_camera_world, std::move(matches), estimate.inliers, *prior};
+  Fix fix{estimate.T_camera_world, std::move(matches), estimate.inliers, estimate.covariance,
+          *prior};
   if (!is_certain(fix, estimate)) return std::nullopt;
   return fix;
 }
@@ -113,7 +114,7 @@ std::optional<Fix> PoseFinder::by_keyframe(const PoseQuery& query,
   begin(TrackingStage::kOptimise);
   const PoseEstimate refined = matches.optimise(model_, first.T_camera_world);
   if (refined.inliers < config_.tracker.min_inliers) return std::nullopt;
-  return Fix{refined.T_camera_world, std::move(matches), refined.inliers};
+  return Fix{refined.T_camera_world, std::move(matches), refined.inliers, refined.covariance};
 }
 
 /// Nothing is known but the view: a thing that stands in two places must not do.
@@ -139,6 +140,7 @@ bool PoseFinder::refine(const PoseQuery& query, Fix& fix) const {
   const PoseEstimate estimate = fix.matches.optimise(model_, fix.T_camera_world, fix.prior);
   fix.T_camera_world = estimate.T_camera_world;
   fix.inliers = estimate.inliers;
+  fix.covariance = estimate.covariance;
   return is_certain(fix, estimate);
 }
 

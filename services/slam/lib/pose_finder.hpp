@@ -14,6 +14,7 @@ struct Fix {
   SE3 T_camera_world;
   FrameMatches matches;
   int inliers = 0;
+  Matrix6d covariance = Matrix6d::Zero();  ///< as in PoseEstimate
   PosePrior prior = {};  ///< by the shape of the scene; without weight where that was not asked
   std::vector<PointId> in_view = {};  ///< points of the map that are in view from there
 };

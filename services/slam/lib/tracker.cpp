@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <unordered_map>
 #include <utility>
 
 #include "services/slam/lib/dynamic_filter.hpp"
@@ -12,6 +12,18 @@
 #include "services/slam/lib/pose_finder.hpp"
 
 namespace tsg {
+namespace {
+
+/// Sorted by id: a hash table has no order that could be repeated.
+std::vector<PointSighting> sorted(const std::unordered_map<PointId, PointSighting>& sightings) {
+  std::vector<PointSighting> list;
+  list.reserve(sightings.size());
+  for (const auto& [id, sighting] : sightings) list.push_back(sighting);
+  std::ranges::sort(list, {}, &PointSighting::id);
+  return list;
+}
+
+}  // namespace
 
 struct Tracker::Impl {
   Impl(const SlamConfig& slam_config,
@@ -40,8 +52,6 @@ struct Tracker::Impl {
   [[nodiscard]] std::string why_lost() const;
   void lose(TrackResult& result, std::string reason);
   void begin_part(const std::shared_ptr<const Features>& features, TrackResult& result);
-  [[nodiscard]] KeyframeId choose_reference(const LocalMapSnapshot& map,
-                                            const FrameMatches& matches) const;
   void propose_keyframe(const LocalMapSnapshot& map, int inliers, TrackResult& result);
   [[nodiscard]] KeyframeCandidate make_candidate();
 
@@ -60,7 +70,7 @@ struct Tracker::Impl {
   Vector6d twist_per_second = Vector6d::Zero();  ///< log of T_last_now for one second
   KeyframeId next_keyframe = 0;
   std::uint64_t corrections = 0;  ///< of the map that `last` is in
-  std::map<PointId, PointSighting> sightings;
+  std::unordered_map<PointId, PointSighting> sightings;
 };
 
 void Tracker::Impl::start_map(const std::shared_ptr<const Features>& features,
@@ -148,16 +158,12 @@ SE3 Tracker::Impl::predict(std::int64_t stamp_ns) const {
 
 void Tracker::Impl::count_sightings(const Fix& fix) {
   if (config.tracker.localisation_only) return;  // nobody would ever take them
-  for (const PointId id : fix.in_view) {
-    PointSighting& sighting = sightings[id];
-    sighting.id = id;
-    ++sighting.expected;
-  }
+  const auto of = [this](PointId id) -> PointSighting& {
+    return sightings.try_emplace(id, PointSighting{.id = id}).first->second;
+  };
+  for (const PointId id : fix.in_view) ++of(id).expected;
   for (const PointId id : fix.matches.points()) {
-    if (id == kNoPoint) continue;
-    PointSighting& sighting = sightings[id];
-    sighting.id = id;
-    ++sighting.found;
+    if (id != kNoPoint) ++of(id).found;
   }
 }
 
@@ -170,7 +176,8 @@ void Tracker::Impl::accept(const std::shared_ptr<const Features>& features,
   TrackedFrame now{.features = features,
                    .points = fix.matches.points(),
                    .T_world_camera = fix.T_camera_world.inverse()};
-  now.reference = choose_reference(map, fix.matches);
+  now.reference =
+      map.keyframe_sharing_most(now.points).value_or(last ? last->reference : map.newest);
   const SnapshotKeyframe* reference = map.find_keyframe(now.reference);
   // Before the first snapshot the first keyframe is where the world is.
   const SE3 T_world_reference = reference == nullptr ? SE3() : reference->T_world_camera;
@@ -193,6 +200,7 @@ void Tracker::Impl::accept(const std::shared_ptr<const Features>& features,
   result.reference = last->reference;
   result.T_reference_camera = last->T_reference_camera;
   result.inliers = fix.inliers;
+  result.covariance = fix.covariance;
   propose_keyframe(map, fix.inliers, result);
 }
 
@@ -207,24 +215,6 @@ void Tracker::Impl::lose(TrackResult& result, std::string reason) {
   lost = true;
   result.state = TrackingState::kLost;
   result.reason = std::move(reason);
-}
-
-KeyframeId Tracker::Impl::choose_reference(const LocalMapSnapshot& map,
-                                           const FrameMatches& matches) const {
-  std::vector<PointId> seen = matches.points();
-  std::sort(seen.begin(), seen.end());
-  KeyframeId best = last ? last->reference : map.newest;
-  std::ptrdiff_t most = 0;
-  for (const SnapshotKeyframe& keyframe : map.keyframes) {
-    const auto shared =
-        std::count_if(keyframe.points.begin(), keyframe.points.end(), [&](PointId id) {
-          return id != kNoPoint && std::binary_search(seen.begin(), seen.end(), id);
-        });
-    if (shared <= most) continue;
-    most = shared;
-    best = keyframe.id;
-  }
-  return best;
 }
 
 void Tracker::Impl::propose_keyframe(const LocalMapSnapshot& map,
@@ -245,8 +235,7 @@ KeyframeCandidate Tracker::Impl::make_candidate() {
                               .T_reference_camera = last->T_reference_camera,
                               .features = last->features,
                               .points = last->points};
-  candidate.sightings.reserve(sightings.size());
-  for (const auto& [id, sighting] : sightings) candidate.sightings.push_back(sighting);
+  candidate.sightings = sorted(sightings);
   sightings.clear();
   return candidate;
 }

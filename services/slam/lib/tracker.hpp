@@ -11,6 +11,7 @@
 #include "common/rgbd/rgbd_frame.hpp"
 #include "services/slam/lib/keyframe_candidate.hpp"
 #include "services/slam/lib/local_map_snapshot.hpp"
+#include "services/slam/lib/pose_optimizer.hpp"
 #include "services/slam/lib/slam_config.hpp"
 #include "services/slam/lib/tracking_stage.hpp"
 
@@ -32,6 +33,9 @@ struct TrackResult {
   MapPart part = 0;                        ///< of the map, whose world it is
   KeyframeId reference = 0;                ///< the keyframe that shares most map points
   SE3 T_reference_camera = {};             ///< the same pose, relative to it
+  /// How uncertain the pose is in the map as it is: of a left-hand twist of T_camera_world,
+  /// translation (m) first, then rotation (rad). Drift of the map is not in it.
+  Matrix6d covariance = Matrix6d::Zero();
   /// The way from the previous frame's camera, both poses by the same map: free of what was
   /// corrected in between. Set exactly where the previous frame was tracked too.
   std::optional<SE3> T_previous_camera = {};
