@@ -36,14 +36,16 @@ std::vector<SE3> way_round() {
 class LoopCloserTest : public testing::Test {
  protected:
   /// Walks round; the map takes each step with the same small error. True once the loop is closed.
-  bool walk_round(LoopCloser& closer) {
+  bool walk_round(LoopCloser& closer) { return walk(closer, 0, way_round().size()); }
+
+  /// The part of the way from one step to another.
+  bool walk(LoopCloser& closer, std::size_t begin, std::size_t end) {
     const std::vector<SE3> truth = way_round();
     const SE3 error =
         SE3::exp((Vector6d() << 0.004, -0.002, 0.003, 0.0004, 0.0006, -0.0003).finished());
-    SE3 T_map_camera = truth.front();
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-      if (i > 0) T_map_camera = T_map_camera * truth[i - 1].inverse() * truth[i] * error;
-      closer.add(made_.insert(wall_, truth[i], T_map_camera));
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i > 0) T_map_camera_ = T_map_camera_ * truth[i - 1].inverse() * truth[i] * error;
+      closer.add(made_.insert(wall_, truth[i], T_map_camera_));
       truth_.push_back(truth[i]);
       error_before_ = worst_error();
       if (closer.close(made_.map, i, 0, {})) return true;
@@ -78,6 +80,7 @@ class LoopCloserTest : public testing::Test {
        {.z = 3.0, .corner = {3.0, -1.0}, .extent = {6.0, 6.0}, .texture_seed = 4},
        {.z = 2.5, .corner = {-0.9, -0.4}, .extent = {0.8, 0.6}, .texture_seed = 5}}};
   std::vector<SE3> truth_;
+  SE3 T_map_camera_ = way_round().front();
   double error_before_ = 0.0;
 };
 
@@ -96,6 +99,15 @@ TEST_F(LoopCloserTest, TakesTheDriftOutOfALongWay) {
   RecordProperty("worst_error_before_m", std::to_string(error_before_));
   RecordProperty("worst_error_after_graph_m", std::to_string(after_graph));
   RecordProperty("worst_error_after_adjustment_m", std::to_string(worst_error()));
+}
+
+TEST_F(LoopCloserTest, ClosesALoopWithTheOldPartOfAMapThatWasKept) {
+  LoopCloser of_first_session(made_.model, made_.config);
+  ASSERT_FALSE(walk(of_first_session, 0, 25));
+  LoopCloser of_second_session(made_.model, made_.config);
+  of_second_session.take_over(made_.map, of_first_session.loops(), false);
+  ASSERT_TRUE(walk(of_second_session, 25, way_round().size()));
+  EXPECT_LT(worst_error(), 0.4 * error_before_);
 }
 
 TEST_F(LoopCloserTest, AdjustsInSlicesWhileTheMapGoesOn) {
