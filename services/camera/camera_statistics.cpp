@@ -1,17 +1,8 @@
 #include "services/camera/camera_statistics.hpp"
 
+#include "common/app/sample_window_json.hpp"
+
 namespace tsg {
-namespace {
-
-nlohmann::json to_json(const SampleWindow& window) {
-  const Summary summary = window.summary();
-  return {{"count", summary.count},
-          {"p50", summary.median},
-          {"p99", summary.p99},
-          {"max", summary.max}};
-}
-
-}  // namespace
 
 nlohmann::json CameraStatistics::to_json() const {
   return {{"frames_sent", frames_sent},

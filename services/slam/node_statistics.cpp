@@ -2,18 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/app/sample_window_json.hpp"
+
 namespace tsg {
-namespace {
-
-nlohmann::json to_json(const SampleWindow& window) {
-  const Summary summary = window.summary();
-  return {{"count", summary.count},
-          {"p50", summary.median},
-          {"p99", summary.p99},
-          {"max", summary.max}};
-}
-
-}  // namespace
 
 void NodeStatistics::add(const TrackResult& result, const FrameTimes& times) {
   if (result.T_world_camera) {
