@@ -52,6 +52,7 @@ SurfaceAgreement compare_surfaces(const CameraModel& camera,
   SurfaceAgreement agreement;
   for (int row = 0; row < seen_by_a.rows; row += kStride) {
     for (int column = 0; column < seen_by_a.columns; column += kStride) {
+      ++agreement.cells;
       const double inverse_depth = seen_by_a.at(column, row);
       if (inverse_depth <= 0.0) continue;
       // Lens distortion moves a point by less than the cells that it is compared with.

@@ -8,6 +8,7 @@ namespace tsg {
 
 /// How what one depth image shows fits another's, by number of cells.
 struct SurfaceAgreement {
+  int cells = 0;         ///< looked at in the first image, whatever they hold
   int agreeing = 0;      ///< both see the surface at the same place
   int seen_through = 0;  ///< the other sees what lies behind: the surface cannot be there
   int hidden = 0;        ///< the other sees something in front: says nothing

@@ -10,10 +10,11 @@ namespace {
 
 constexpr int kColumns = 4;
 constexpr int kRows = 4;
-constexpr int kMinAgreeing = 150;  // cells of about 2100: an overlap of some 7 % of the image
+constexpr double kMinOverlap = 0.07;  // of the image: what is smaller fits by chance
 
 bool fits(const SurfaceAgreement& agreement, double max_contradiction) {
-  return agreement.agreeing >= kMinAgreeing && agreement.contradiction() <= max_contradiction;
+  return agreement.agreeing >= kMinOverlap * agreement.cells &&
+         agreement.contradiction() <= max_contradiction;
 }
 
 }  // namespace

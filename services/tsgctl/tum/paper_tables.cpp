@@ -1,7 +1,6 @@
 #include "services/tsgctl/tum/paper_tables.hpp"
 
 #include <algorithm>
-#include <regex>
 
 namespace tsg {
 namespace {
@@ -43,6 +42,13 @@ const std::array<PaperComparison, 3> kComparisons{{
      .rates = {{{27.78, 23.26}, {}, {11.94, 24.23}, {30.0, 25.58}, {45.45, 32.76}}}},
 }};
 
+/// Whether all of a name, without its camera, may be in one of the benchmark's.
+bool is_sequence(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
 }  // namespace
 
 std::span<const PaperSequence> paper_sequences() { return kSequences; }
@@ -55,14 +61,18 @@ const PaperSequence* find_paper_sequence(std::string_view name) {
 }
 
 Expected<std::string> tum_short_name(const std::string& name) {
-  static const std::regex kName("(?:fr([123])/|rgbd_dataset_freiburg([123])_)([a-z0-9_]+)");
-  std::smatch parts;
-  if (!std::regex_match(name, parts, kName)) {
-    return make_error(ExitCode::kUsage, "'" + name +
-                                            "' is no sequence of the TUM benchmark; write it like "
-                                            "fr3/walking_xyz");
+  for (const char camera : {'1', '2', '3'}) {
+    const std::string short_form = std::string("fr") + camera + "/";
+    for (const std::string& start :
+         {short_form, std::string("rgbd_dataset_freiburg") + camera + "_"}) {
+      if (!name.starts_with(start)) continue;
+      const std::string rest = name.substr(start.size());
+      if (is_sequence(rest)) return short_form + rest;
+    }
   }
-  return "fr" + parts[1].str() + parts[2].str() + "/" + parts[3].str();
+  return make_error(ExitCode::kUsage, "'" + name +
+                                          "' is no sequence of the TUM benchmark; write it like "
+                                          "fr3/walking_xyz");
 }
 
 std::string tum_folder_name(const std::string& short_name) {
