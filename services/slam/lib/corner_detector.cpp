@@ -112,7 +112,8 @@ void keep_spread(std::vector<cv::KeyPoint>& corners, const cv::Size& size, int w
     return static_cast<std::size_t>(static_cast<int>(corner.pt.y) / cell * columns +
                                     static_cast<int>(corner.pt.x) / cell);
   };
-  const auto cells = static_cast<std::size_t>(columns * rows);
+  const int cell_count = columns * rows;
+  const auto cells = static_cast<std::size_t>(cell_count);
   std::vector<Ranked> ranked = by_cell(corners, cells, cell_of);
   std::nth_element(ranked.begin(), ranked.begin() + wanted, ranked.end(), comes_first);
   ranked.resize(static_cast<std::size_t>(wanted));
