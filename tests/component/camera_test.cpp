@@ -148,10 +148,10 @@ TEST_F(Camera, FramesWithoutFreeMemoryAreDroppedAndCountedUntilThereIsSomeAgain)
   const auto dropped = [&] { return report().value("frames_dropped_pool", 0); };
   kept.push_back(take().value());
   // On a busy machine other frames are late; only those that find no memory count here.
-  while (dropped() < 2 && frames_done() < 75) {
+  while (dropped() < 5 && frames_done() < 75) {
     if (auto sample = take(50ms)) kept.push_back(std::move(*sample));
   }
-  ASSERT_GE(dropped(), 2);
+  ASSERT_GE(dropped(), 5);
   ASSERT_GT(kept.size(), 10U);
   ASSERT_LT(kept.size(), 40U) << "the pool is larger than this test thinks";
   kept.clear();
