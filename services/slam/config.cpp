@@ -1,5 +1,7 @@
 #include "services/slam/config.hpp"
 
+#include <utility>
+
 namespace tsg {
 namespace {
 
@@ -12,6 +14,16 @@ void read_features(ConfigReader& reader, FeatureConfig& config) {
   reader.read("features.min_depth_m", config.min_depth_m);
   reader.read("features.max_depth_m", config.max_depth_m);
   reader.read("features.inverse_depth_sigma", config.inverse_depth_sigma);
+}
+
+/// The problem with the name of the method, or nothing.
+std::vector<std::string> read_method(ConfigReader& reader, DynamicMethod& method) {
+  std::string name(name_of(method));
+  reader.read("dynamic_filter.method", name);
+  const auto named = method_named(name);
+  if (!named) return {"dynamic_filter.method must be none, mask, epipolar, tsg or full"};
+  method = *named;
+  return {};
 }
 
 void read_dynamic_filter(ConfigReader& reader, DynamicFilterConfig& config) {
@@ -81,11 +93,13 @@ SlamNodeConfig load_slam_config(const ConfigFile& file) {
   reader.read("lockstep_mask_wait_s", config.lockstep_mask_wait_s);
   reader.read("keyframe_mask_wait_s", config.keyframe_mask_wait_s);
   read_features(reader, config.core.features);
+  std::vector<std::string> problems = read_method(reader, config.core.dynamic_filter.method);
   read_dynamic_filter(reader, config.core.dynamic_filter);
   read_tracker(reader, config.core.tracker);
   read_mapper(reader, config.core.mapper);
   read_loop(reader, config.core.loop);
-  reader.finish(config.problems());
+  for (std::string& problem : config.problems()) problems.push_back(std::move(problem));
+  reader.finish(problems);
   return config;
 }
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "services/slam/lib/bundle_adjustment.hpp"
-#include "services/slam/lib/dynamic_classes.hpp"
+#include "services/slam/lib/dynamic/class_policy.hpp"
 #include "services/slam/lib/feature_extractor.hpp"
 #include "services/slam/lib/feature_matcher.hpp"
 #include "services/slam/lib/frame_search.hpp"

@@ -53,6 +53,7 @@ Features FeatureExtractor::extract(const RgbdFrame& frame, const cv::Mat& verdic
   features.stamp_ns = frame.stamp_ns;
   features.items.reserve(static_cast<std::size_t>(config_.max_features));
   features.descriptors.reserve(static_cast<std::size_t>(config_.max_features));
+  left_out_.clear();
   build_pyramid(frame.colour);
   for (std::size_t level = 0; level < pyramid_.size(); ++level) {
     extract_level(level, verdicts, features);
@@ -85,13 +86,18 @@ void FeatureExtractor::extract_level(std::size_t level,
                                      Features& features) {
   const cv::Mat& image = pyramid_[level];
   corners_.clear();
+  dynamic_corners_.clear();
   for (const cv::KeyPoint& corner : detector_.detect(image, kMargin)) {
     const bool dynamic = verdict_at(verdicts, raw_pixel(to_level_0(corner.pt, image.size()))) ==
                          FeatureVerdict::kDynamic;
-    if (dynamic) ++features.counts.dynamic;
-    if (!dynamic) corners_.push_back(corner);
+    (dynamic ? dynamic_corners_ : corners_).push_back(corner);
   }
+  features.counts.dynamic += static_cast<int>(dynamic_corners_.size());
   keep_spread(corners_, image.size(), budgets_[level]);
+  keep_spread(dynamic_corners_, image.size(), budgets_[level]);
+  for (const cv::KeyPoint& corner : dynamic_corners_) {
+    left_out_.push_back(raw_pixel(to_level_0(corner.pt, image.size())));
+  }
   cv::GaussianBlur(image, blurred_, {kBlurSize, kBlurSize}, kBlurSigma, kBlurSigma);
   for (const cv::KeyPoint& corner : corners_) {
     const int x = static_cast<int>(corner.pt.x);

@@ -20,6 +20,10 @@ class FeatureExtractor {
   /// on kDynamic pixels are counted and left out, so that the others fill the budget.
   [[nodiscard]] Features extract(const RgbdFrame& frame, const cv::Mat& verdicts);
 
+  /// Of the last frame, the pixels (as captured) of features on kDynamic pixels, spread as those
+  /// that were kept are.
+  [[nodiscard]] const std::vector<cv::Point>& left_out() const { return left_out_; }
+
  private:
   void build_pyramid(const cv::Mat& colour);
   void extract_level(std::size_t level, const cv::Mat& verdicts, Features& features);
@@ -35,6 +39,8 @@ class FeatureExtractor {
   std::vector<int> budgets_;    ///< features wanted of each level
   std::vector<cv::Mat> pyramid_;
   std::vector<cv::KeyPoint> corners_;
+  std::vector<cv::KeyPoint> dynamic_corners_;
+  std::vector<cv::Point> left_out_;
   cv::Mat blurred_;
 };
 

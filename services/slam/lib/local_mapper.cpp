@@ -7,7 +7,7 @@
 
 #include "common/core/check.hpp"
 #include "services/slam/lib/depth_points.hpp"
-#include "services/slam/lib/dynamic_classes.hpp"
+#include "services/slam/lib/dynamic/class_policy.hpp"
 #include "services/slam/lib/local_window.hpp"
 #include "services/slam/lib/loop_closer.hpp"
 #include "services/slam/lib/map.hpp"

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "services/slam/lib/dynamic/method.hpp"
+
 namespace tsg {
 
 /// Which features are looked for, and which depth is believed.
@@ -21,6 +23,7 @@ struct FeatureConfig {
 
 /// What the classes of instances say about motion, and how far a late mask is trusted.
 struct DynamicFilterConfig {
+  DynamicMethod method = DynamicMethod::kFull;
   std::vector<std::string> dynamic_classes = {"person",     "bird",  "cat", "dog",
                                               "horse",      "sheep", "cow", "bicycle",
                                               "motorcycle", "car",   "bus", "truck"};

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "services/slam/lib/dynamic_filter.hpp"
+#include "services/slam/lib/dynamic/dynamic_filter.hpp"
 #include "services/slam/lib/feature_extractor.hpp"
 #include "services/slam/lib/keyframe_policy.hpp"
 #include "services/slam/lib/observation_model.hpp"
@@ -21,6 +21,22 @@ std::vector<PointSighting> sorted(const std::unordered_map<PointId, PointSightin
   for (const auto& [id, sighting] : sightings) list.push_back(sighting);
   std::ranges::sort(list, {}, &PointSighting::id);
   return list;
+}
+
+FrameVerdicts judged(const Features& kept, const std::vector<cv::Point>& left_out) {
+  FrameVerdicts verdicts;
+  verdicts.features.reserve(kept.size() + left_out.size());
+  for (const Feature& feature : kept.items) {
+    verdicts.features.push_back(
+        {.raw_x = feature.raw_x, .raw_y = feature.raw_y, .prior = feature.verdict});
+  }
+  for (const cv::Point& pixel : left_out) {
+    verdicts.features.push_back({.raw_x = static_cast<std::int16_t>(pixel.x),
+                                 .raw_y = static_cast<std::int16_t>(pixel.y),
+                                 .prior = FeatureVerdict::kDynamic,
+                                 .is_dynamic = true});
+  }
+  return verdicts;
 }
 
 }  // namespace
@@ -58,6 +74,7 @@ struct Tracker::Impl {
   SlamConfig config;
   ObservationModel model;
   FeatureExtractor extractor;
+  std::shared_ptr<const FrameVerdicts> verdicts;  ///< of the frame that was last extracted
   DynamicFilter filter;
   std::function<void(TrackingStage)> on_stage;
   PoseFinder finder;
@@ -255,6 +272,8 @@ std::shared_ptr<const Features> Tracker::extract(const RgbdFrame& frame,
   if (!verdicts.empty()) {
     features.mask_age_frames = static_cast<int>(frame.seq - mask->frame_seq);
   }
+  impl_->verdicts =
+      std::make_shared<const FrameVerdicts>(judged(features, impl_->extractor.left_out()));
   return std::make_shared<const Features>(std::move(features));
 }
 
@@ -263,7 +282,8 @@ TrackResult Tracker::track(const std::shared_ptr<const Features>& features,
   TrackResult result{.seq = features->seq,
                      .stamp_ns = features->stamp_ns,
                      .features = features->counts,
-                     .mask_age_frames = features->mask_age_frames};
+                     .mask_age_frames = features->mask_age_frames,
+                     .verdicts = impl_->verdicts};
   if (!impl_->started && whole_map.keyframes.empty()) {
     impl_->start_map(features, result);
     return result;

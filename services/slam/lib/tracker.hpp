@@ -9,6 +9,7 @@
 #include "common/geometry/se3.hpp"
 #include "common/rgbd/instances.hpp"
 #include "common/rgbd/rgbd_frame.hpp"
+#include "services/slam/lib/dynamic/frame_verdicts.hpp"
 #include "services/slam/lib/keyframe_candidate.hpp"
 #include "services/slam/lib/local_map_snapshot.hpp"
 #include "services/slam/lib/pose_optimizer.hpp"
@@ -44,6 +45,7 @@ struct TrackResult {
   int inliers = 0;           ///< of these, kept by the last pose optimisation
   FeatureCounts features;
   int mask_age_frames = -1;
+  std::shared_ptr<const FrameVerdicts> verdicts = {};  ///< on all features that were detected
   std::string reason = {};                         ///< why there is no pose; empty while tracking
   std::optional<KeyframeCandidate> keyframe = {};  ///< for LocalMapper::insert
   std::vector<PointId> dynamic_points = {};        ///< for LocalMapper::remove_points: found to lie

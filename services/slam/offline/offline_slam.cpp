@@ -70,6 +70,11 @@ Expected<void> OfflineSlam::step(int lap, std::size_t index) {
   OfflineFrame done{.seq = frame->seq,
                     .lap = lap,
                     .state = result.state,
+                    .T_world_camera = result.T_world_camera,
+                    .recorded_ns = sequence_.frames[index].stamp_ns,
+                    .image = &*frame,
+                    .mask = *mask,
+                    .verdicts = result.verdicts,
                     .is_keyframe = result.keyframe.has_value()};
   map(result, *mask);
   const auto snapshot = mapper_.snapshot();

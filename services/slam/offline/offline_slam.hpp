@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,16 @@ struct OfflineOptions {
   int laps = 1;  ///< how often the sequence is gone through; its path should be closed for more
 };
 
-/// One frame as it has just been done.
+/// One frame as it has just been done. Pointers are valid during the call only.
 struct OfflineFrame {
   std::uint64_t seq = 0;  ///< counts on over laps
   int lap = 0;
   TrackingState state = TrackingState::kInitialising;
+  std::optional<SE3> T_world_camera = {};              ///< while tracking
+  std::int64_t recorded_ns = 0;                        ///< its stamp in the sequence's files
+  const RgbdFrame* image = nullptr;                    ///< never null in on_frame
+  const InstanceSegmentation* mask = nullptr;          ///< the latest that had come; null: none yet
+  std::shared_ptr<const FrameVerdicts> verdicts = {};  ///< never null in on_frame
   bool is_keyframe = false;
   FrameCost cost = {};
   std::size_t map_keyframes = 0;

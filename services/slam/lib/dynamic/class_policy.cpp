@@ -1,4 +1,4 @@
-#include "services/slam/lib/dynamic_classes.hpp"
+#include "services/slam/lib/dynamic/class_policy.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "services/slam/lib/dynamic_filter.hpp"
+#include "services/slam/lib/dynamic/dynamic_filter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "common/core/time.hpp"
-#include "services/slam/lib/dynamic_classes.hpp"
+#include "services/slam/lib/dynamic/class_policy.hpp"
 
 namespace tsg {
 namespace {

@@ -1,8 +1,8 @@
-#include "services/slam/lib/dynamic_filter.hpp"
+#include "services/slam/lib/dynamic/dynamic_filter.hpp"
 
 #include <gtest/gtest.h>
 
-#include "services/slam/lib/dynamic_classes.hpp"
+#include "services/slam/lib/dynamic/class_policy.hpp"
 #include "services/slam/lib/synthetic_scene.hpp"
 
 namespace tsg {
