@@ -1,5 +1,7 @@
 #include "services/segmentation/config.hpp"
 
+#include "common/app/mask_faults_file.hpp"
+
 namespace tsg {
 
 std::vector<std::string> SegmentationConfig::problems() const {
@@ -11,6 +13,7 @@ std::vector<std::string> SegmentationConfig::problems() const {
   for (const auto& problems : {network.model.problems(), network.decoder.problems()}) {
     for (const auto& problem : problems) found.push_back("model." + problem);
   }
+  for (const auto& problem : faults.problems()) found.push_back("faults." + problem);
   return found;
 }
 
@@ -25,6 +28,7 @@ SegmentationConfig load_segmentation_config(const ConfigFile& file) {
   reader.read("model.threads", config.network.model.threads);
   reader.read("model.score_threshold", config.network.decoder.score_threshold);
   reader.read("model.nms_iou", config.network.decoder.nms_iou);
+  read_mask_faults(reader, "faults.", config.faults);
   reader.finish(config.problems());
   return config;
 }

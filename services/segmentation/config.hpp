@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/app/config_file.hpp"
+#include "common/rgbd/mask_faults.hpp"
 #include "services/segmentation/lib/yolo_seg_provider.hpp"
 
 namespace tsg {
@@ -12,7 +13,8 @@ struct SegmentationConfig {
   std::string provider = "model";   // "model" or "dataset"
   std::string dataset_folder = {};  // with mask/ and instances.json; for provider "dataset"
   YoloSegProviderConfig network = {};
-  int nice = 5;  // on a busy machine tracking must win over masks
+  int nice = 5;            // on a busy machine tracking must win over masks
+  MaskFaults faults = {};  // for evaluation only
 
   [[nodiscard]] std::vector<std::string> problems() const;
 };

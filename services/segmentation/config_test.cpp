@@ -26,18 +26,36 @@ TEST(SegmentationConfig, IsReadFromItsSection) {
   EXPECT_DOUBLE_EQ(config.network.decoder.nms_iou, 0.7);
 }
 
+TEST(SegmentationConfig, HasNoFaultsUnlessTheyAreAskedFor) {
+  EXPECT_FALSE(load_segmentation_config(ConfigFile::from_overrides({})).faults.any());
+  const MaskFaults faults =
+      load_segmentation_config(
+          ConfigFile::from_overrides(
+              {"segmentation.faults.late_frames=6", "segmentation.faults.every_frames=10",
+               "segmentation.faults.drop_every=4", "segmentation.faults.drop_instance_every=3",
+               "segmentation.faults.merge_two=true", "segmentation.faults.shrink_px=9",
+               "segmentation.faults.swap_class_every=5"}))
+          .faults;
+  EXPECT_EQ(to_text(faults),
+            "late_frames=6, every_frames=10, drop_every=4, drop_instance_every=3, merge_two=true, "
+            "shrink_px=9, swap_class_every=5");
+}
+
 TEST(SegmentationConfig, NamesEveryKeyThatIsOutOfRange) {
   const ConfigFile file = ConfigFile::from_overrides(
       {"segmentation.provider=magic", "segmentation.nice=-3", "segmentation.model.threads=0",
-       "segmentation.model.score_threshold=1.5", "segmentation.model.nms_iou=0"});
+       "segmentation.model.score_threshold=1.5", "segmentation.model.nms_iou=0",
+       "segmentation.faults.late_frames=-1", "segmentation.faults.every_frames=0",
+       "segmentation.faults.merge_two=3"});
   try {
     const SegmentationConfig config = load_segmentation_config(file);
     FAIL() << "accepted provider " << config.provider;
   } catch (const FatalError& error) {
     EXPECT_EQ(error.code(), ExitCode::kConfig);
-    for (const char* key :
-         {"segmentation.provider", "segmentation.nice", "segmentation.model.threads",
-          "segmentation.model.score_threshold", "segmentation.model.nms_iou"}) {
+    for (const char* key : {"segmentation.provider", "segmentation.nice",
+                            "segmentation.model.threads", "segmentation.model.score_threshold",
+                            "segmentation.model.nms_iou", "segmentation.faults.late_frames",
+                            "segmentation.faults.every_frames", "segmentation.faults.merge_two"}) {
       EXPECT_THAT(error.what(), HasSubstr(key));
     }
   }

@@ -65,7 +65,10 @@ SegmentationNode::SegmentationNode(const SegmentationConfig& config,
       frames_(bus),
       masks_(bus),
       commands_(bus, "segmentation"),
-      diagnostics_(bus, "segmentation") {
+      diagnostics_(bus, "segmentation"),
+      faults_text_(to_text(config.faults)),
+      faults_(config.faults),
+      delayed_(config.faults.late_frames) {
   lower_priority(config.nice, log_);
   provider_ = value_or_throw(make_provider(config));
   commands_.on("report", [this](const std::string&) -> Expected<std::string> { return report(); });
@@ -74,11 +77,15 @@ SegmentationNode::SegmentationNode(const SegmentationConfig& config,
 void SegmentationNode::run() {
   const std::stop_callback cancel(context_.stop, [this] { provider_->cancel(); });
   log_.info("masks from", {{"provider", provider_->name()}});
+  if (!faults_text_.empty()) {
+    log_.warn("masks are made late or wrong on purpose: segmentation.faults is for evaluation only",
+              {{"faults", faults_text_}});
+  }
   reported_at_ns_ = monotonic_ns();
   context_.ready();
   while (!context_.stop.stop_requested()) {
     if (const auto message = frames_.take_latest(context_.stop, kFrameWait)) {
-      answer(*message);
+      answer(**message);
     } else {
       settle_readers(0, kNoWait);
     }
@@ -88,27 +95,39 @@ void SegmentationNode::run() {
   }
 }
 
-void SegmentationNode::answer(const Sample<topics::Rgbd>& message) {
-  const std::int64_t published_ns = message->header.publish_monotonic_ns;
+void SegmentationNode::answer(const tsg_RgbdFrame& message) {
+  const std::int64_t published_ns = message.header.publish_monotonic_ns;
   counters_.input_age_ms.add(to_milliseconds(monotonic_ns() - published_ns));
-  const auto result = segment(*message);
+  if (faults_.is_segmented(message.header.seq)) segment_or_withhold(message);
+  while (const auto answer = delayed_.take_due(message.header.seq)) publish_or_withhold(*answer);
+}
+
+void SegmentationNode::segment_or_withhold(const tsg_RgbdFrame& message) {
+  auto result = segment(message);
   if (context_.stop.stop_requested()) return;  // cancelled: nobody waits for this mask any more
   if (!result) {
-    withhold(*message, result.error());
+    withhold(message.header, result.error());
     return;
   }
-  if (const auto published = publish(*result); !published) {
-    withhold(*message, published.error());
-    return;
-  }
-  counters_.add(*result);
-  counters_.latency_ms.add(to_milliseconds(monotonic_ns() - published_ns));
+  auto seen = faults_.apply(std::move(result->segmentation));
+  if (!seen) return;
+  result->segmentation = std::move(*seen);
+  delayed_.put(message.header.seq, {message.header, std::move(*result)});
 }
 
 Expected<SegmentationResult> SegmentationNode::segment(const tsg_RgbdFrame& message) {
   const auto frame = view_as_frame(message);
   if (!frame) return tl::unexpected(frame.error());
   return provider_->segment(*frame);
+}
+
+void SegmentationNode::publish_or_withhold(const Answer& answer) {
+  if (const auto published = publish(answer.result); !published) {
+    withhold(answer.header, published.error());
+    return;
+  }
+  counters_.add(answer.result);
+  counters_.latency_ms.add(to_milliseconds(monotonic_ns() - answer.header.publish_monotonic_ns));
 }
 
 Expected<void> SegmentationNode::publish(const SegmentationResult& result) {
@@ -124,11 +143,10 @@ Expected<void> SegmentationNode::publish(const SegmentationResult& result) {
   return masks_.publish(std::move(*loan));
 }
 
-void SegmentationNode::withhold(const tsg_RgbdFrame& message, const Error& why) {
+void SegmentationNode::withhold(const tsg_Header& header, const Error& why) {
   ++counters_.failed;
-  log_.warn(
-      "mask withheld",
-      {{"seq", message.header.seq}, {"stamp_ns", message.header.stamp_ns}, {"why", why.message}});
+  log_.warn("mask withheld",
+            {{"seq", header.seq}, {"stamp_ns", header.stamp_ns}, {"why", why.message}});
 }
 
 /// What is published before shared memory knows its readers is lost to them, so whoever is new
@@ -147,14 +165,17 @@ void SegmentationNode::publish_diagnostics() {
   reported_failed_ = counters_.failed;
 
   Diagnostic diagnostic;
-  diagnostic.level = failed > 0 ? DiagnosticLevel::kWarn : DiagnosticLevel::kOk;
+  const bool is_faulty = !faults_text_.empty();
+  diagnostic.level = failed > 0 || is_faulty ? DiagnosticLevel::kWarn : DiagnosticLevel::kOk;
   diagnostic.message = failed > 0   ? "masks withheld: see the log"
+                       : is_faulty  ? "masks late or wrong on purpose: segmentation.faults is set"
                        : frames > 0 ? "segmenting"
                                     : "waiting for frames";
   const double rate_hz = elapsed_s > 0.0 ? static_cast<double>(frames) / elapsed_s : 0.0;
   const Summary inference = counters_.total_ms.summary();
   const Summary latency = counters_.latency_ms.summary();
   diagnostic.values = {{"provider", provider_->name()},
+                       {"faults", faults_text_},
                        {"rate_hz", with_one_decimal(rate_hz)},
                        {"frames", std::to_string(counters_.frames)},
                        {"passed_over", std::to_string(frames_.passed_over() + frames_.missed())},
@@ -171,6 +192,7 @@ void SegmentationNode::publish_diagnostics() {
 std::string SegmentationNode::report() const {
   nlohmann::json report = counters_.to_json();
   report["provider"] = provider_->name();
+  report["faults"] = faults_text_;
   // Both were left unread: the first by us, the second by the bus, whose queue is short.
   report["passed_over"] = frames_.passed_over() + frames_.missed();
   return report.dump();

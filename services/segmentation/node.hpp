@@ -10,6 +10,8 @@
 #include "common/bus/command.hpp"
 #include "common/bus/diagnostics.hpp"
 #include "common/bus/topics.hpp"
+#include "common/rgbd/frame_delay.hpp"
+#include "common/rgbd/mask_faults.hpp"
 #include "services/segmentation/config.hpp"
 #include "services/segmentation/counters.hpp"
 
@@ -27,10 +29,18 @@ class SegmentationNode {
   void run();
 
  private:
-  void answer(const Sample<topics::Rgbd>& message);
+  /// A mask with what its publication is told with.
+  struct Answer {
+    tsg_Header header = {};  ///< of the frame
+    SegmentationResult result;
+  };
+
+  void answer(const tsg_RgbdFrame& message);
+  void segment_or_withhold(const tsg_RgbdFrame& message);
   [[nodiscard]] Expected<SegmentationResult> segment(const tsg_RgbdFrame& message);
+  void publish_or_withhold(const Answer& answer);
   [[nodiscard]] Expected<void> publish(const SegmentationResult& result);
-  void withhold(const tsg_RgbdFrame& message, const Error& why);
+  void withhold(const tsg_Header& header, const Error& why);
   void settle_readers(int at_least, std::chrono::milliseconds timeout);
   void publish_diagnostics();
   [[nodiscard]] std::string report() const;
@@ -43,6 +53,9 @@ class SegmentationNode {
   CommandServer commands_;
   DiagnosticsPublisher diagnostics_;
   SegmentationCounters counters_;
+  const std::string faults_text_;
+  MaskFaultInjector faults_;
+  FrameDelay<Answer> delayed_;
   bool has_published_ = false;
   // As of the last diagnostics.
   std::int64_t reported_at_ns_ = 0;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/app/config_file.hpp"
+#include "common/app/mask_faults_file.hpp"
 #include "common/core/atomic_file.hpp"
 #include "common/core/time.hpp"
 #include "common/dataset/trajectory.hpp"
@@ -28,6 +29,7 @@ Examples:
   tsgctl bench slam data/static_room
   tsgctl bench slam data/static_room --json --series frames.csv --out trajectory.txt
   tsgctl bench slam data/walking_xyz --no-masks --set slam.features.max_features=800
+  tsgctl bench slam data/walking_xyz --mask-fault late_frames=6 --mask-fault shrink_px=10
   tsgctl bench slam data/scale_round --laps 20 --plot scale.png
 Ends with 0 when the sequence was run to its end; other codes: docs/exit-codes.md.)";
 
@@ -35,6 +37,7 @@ struct BenchArguments {
   BenchOptions options;
   std::string config;
   std::vector<std::string> overrides;
+  std::vector<std::string> mask_faults;
   bool no_masks = false;
   bool json = false;
   std::filesystem::path out;
@@ -55,6 +58,18 @@ SlamConfig read_config(const BenchArguments& arguments) {
   return load_slam_config(file).core;
 }
 
+MaskFaults read_mask_faults(const std::vector<std::string>& settings) {
+  const std::string section = "mask-fault";
+  std::vector<std::string> overrides;
+  for (const std::string& setting : settings) overrides.push_back(section + "." + setting);
+  const ConfigFile file = ConfigFile::from_overrides(overrides);
+  ConfigReader reader(file, section);
+  MaskFaults faults;
+  read_mask_faults(reader, "", faults);
+  reader.finish(faults.problems());
+  return faults;
+}
+
 /// Before a run that may take long: whether its results can be put where they shall go.
 void check_outputs(const BenchArguments& arguments) {
   for (const std::filesystem::path& file : {arguments.out, arguments.series, arguments.plot}) {
@@ -68,7 +83,7 @@ void check_outputs(const BenchArguments& arguments) {
 
 void run(BenchArguments& arguments) {
   arguments.options.run.slam = read_config(arguments);
-  arguments.options.run.masks.use = !arguments.no_masks;
+  arguments.options.run.masks = {!arguments.no_masks, read_mask_faults(arguments.mask_faults)};
   check_outputs(arguments);
   Progress progress;
   const std::int64_t start_ns = monotonic_ns();
@@ -105,6 +120,11 @@ void add_bench_command(CLI::App& app) {
       ->type_name("N")
       ->check(CLI::Range(1, 100'000).description(""));
   command.add_flag("--no-masks", arguments->no_masks, "Leave the sequence's true masks aside");
+  command
+      .add_option("--mask-fault", arguments->mask_faults,
+                  "A fault of the masks, as in segmentation.faults: late_frames=6; repeatable")
+      ->take_all()
+      ->type_name("KEY=VALUE");
   command.add_flag("--json", arguments->json, "Write JSON instead of tables");
   command.add_option("--out", arguments->out, "Write the trajectory (TUM format)")
       ->type_name("FILE");

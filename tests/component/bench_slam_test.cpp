@@ -68,6 +68,25 @@ TEST_F(BenchSlam, StagesAddUpAndTheTrajectoryIsThatOfTheRun) {
   EXPECT_EQ(value_or_throw(read_trajectory(path("trajectory.txt"))).size(), kFrames);
 }
 
+TEST_F(BenchSlam, MakesMasksLateAndWrongOnRequest) {
+  const auto trajectory = [](const std::vector<std::string>& faults) {
+    std::vector<std::string> arguments{room(), "--out", path("faulty.txt")};
+    arguments.insert(arguments.end(), faults.begin(), faults.end());
+    const ProgramResult result = bench(arguments);
+    EXPECT_EQ(result.end.exit_code, 0) << result.output;
+    return test::content_of(path("faulty.txt"));
+  };
+  EXPECT_NE(trajectory({"--mask-fault", "drop_every=1"}), trajectory({}));
+}
+
+TEST_F(BenchSlam, TellsWhatIsWrongWithAMaskFault) {
+  const ProgramResult result =
+      bench({room(), "--mask-fault", "late_frames=-1", "--mask-fault", "late=2"});
+  EXPECT_EQ(result.end.exit_code, code(ExitCode::kConfig)) << result.output;
+  EXPECT_THAT(result.output, AllOf(HasSubstr("mask-fault.late_frames must be 0 to 300"),
+                                   HasSubstr("unknown key mask-fault.late")));
+}
+
 TEST_F(BenchSlam, GoesRoundWithASeriesAndAPicture) {
   const ProgramResult result = bench({room(), "--frames", "5", "--laps", "3", "--no-masks",
                                       "--series", path("series.csv"), "--plot", path("p.png")});

@@ -154,6 +154,43 @@ TEST_F(SegmentationService, RejectsAFrameOfNoPossibleSizeAndGoesOn) {
   EXPECT_TRUE(mask_of(2).has_value()) << service.output();
 }
 
+TEST_F(SegmentationService, WithFaultsPublishesLateMasksThatLackAnInstanceAndWarns) {
+  write_dataset(folder_);
+  std::vector<std::string> overrides = dataset(folder_);
+  overrides.emplace_back("segmentation.faults.late_frames=2");
+  overrides.emplace_back("segmentation.faults.drop_instance_every=1");
+  RunningSegmentation service(overrides);
+  ASSERT_TRUE(is_working(service)) << service.output();
+  EXPECT_NE(service.output().find("faults=\"late_frames=2, drop_instance_every=1\""),
+            std::string::npos)
+      << service.output();
+  ASSERT_TRUE(bus_.watch<topics::Diagnostics>());
+  ASSERT_TRUE(send(1));
+  const auto has_taken_it = [&] { return report().at("input_age_ms").at("p50") > 0.0; };
+  ASSERT_TRUE(eventually(10s, has_taken_it)) << service.output();
+  EXPECT_EQ(report().at("frames"), 0) << "it is held back";
+  ASSERT_TRUE(send(4));
+  const auto mask = mask_of(1);
+  ASSERT_TRUE(mask.has_value()) << service.output();
+  EXPECT_TRUE(mask->is_zero_copy());
+  const auto seen = view_as_instances(**mask);
+  ASSERT_TRUE(seen.has_value()) << seen.error().message;
+  ASSERT_EQ(seen->instances.size(), 1U);
+  EXPECT_EQ(seen->instances[0].class_name, "person");
+  const cv::Rect person = person_of(1);
+  EXPECT_EQ(cv::countNonZero(seen->labels(person) == 1), person.area());
+  EXPECT_EQ(cv::countNonZero(seen->labels), person.area()) << "the chair is nobody's";
+  EXPECT_EQ(report().at("frames"), 1) << "that of frame 4 is held back";
+  EXPECT_EQ(report().at("faults"), "late_frames=2, drop_instance_every=1");
+  const auto warns_of_faults = [](const topics::Diagnostics::Message& message) {
+    const auto all = to_diagnostics(message);
+    return all.at(0).name == "segmentation" &&
+           all.at(0).diagnostic.level == DiagnosticLevel::kWarn &&
+           all.at(0).diagnostic.message.find("on purpose") != std::string::npos;
+  };
+  EXPECT_TRUE(bus_.wait_for<topics::Diagnostics>(10s, warns_of_faults).has_value());
+}
+
 TEST_F(SegmentationService, CountsAndReportsWhatItDid) {
   write_dataset(folder_);
   RunningSegmentation service(dataset(folder_));

@@ -53,8 +53,8 @@ TEST(SlamAccuracy, AmongWalkingPeopleWithTrueMasks) {
 TEST(SlamAccuracy, AmongWalkingPeopleWithMasksEightFramesLateOfEveryFifthFrame) {
   TSG_REQUIRE_SHARED("data/rendered/walking_xyz");
   OfflineOptions options;
-  options.masks.delay_frames = 8;
-  options.masks.every_frames = 5;
+  options.masks.faults.late_frames = 8;
+  options.masks.faults.every_frames = 5;
   follow({.name = "rendered/walking_xyz", .options = options, .most_ate_m = 0.01});
 }
 

@@ -6,7 +6,7 @@ namespace tsg {
 
 Expected<MaskSource> MaskSource::open(const std::filesystem::path& folder,
                                       const MaskOptions& options) {
-  MaskSource source(options);
+  MaskSource source(options.faults);
   if (!options.use || !std::filesystem::exists(folder / "instances.json")) return source;
   auto truth = InstanceTruth::open(folder);
   if (!truth) return tl::unexpected(truth.error());
@@ -17,18 +17,14 @@ Expected<MaskSource> MaskSource::open(const std::filesystem::path& folder,
 Expected<const InstanceSegmentation*> MaskSource::latest(const RgbdFrame& frame,
                                                          std::int64_t recorded_ns) {
   if (!truth_) return nullptr;
-  if (frame.seq % static_cast<std::uint64_t>(options_.every_frames) == 0) {
+  if (faults_.is_segmented(frame.seq)) {
     auto mask = truth_->at(recorded_ns);
     if (!mask) return tl::unexpected(mask.error());
     mask->frame_seq = frame.seq;
     mask->stamp_ns = frame.stamp_ns;
-    pending_.push_back(std::move(*mask));
+    if (auto seen = faults_.apply(std::move(*mask))) delayed_.put(frame.seq, std::move(*seen));
   }
-  const auto delay = static_cast<std::uint64_t>(options_.delay_frames);
-  while (!pending_.empty() && pending_.front().frame_seq + delay <= frame.seq) {
-    latest_ = std::move(pending_.front());
-    pending_.pop_front();
-  }
+  while (auto due = delayed_.take_due(frame.seq)) latest_ = std::move(due);
   return latest_ ? &*latest_ : nullptr;
 }
 

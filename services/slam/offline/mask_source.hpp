@@ -1,23 +1,23 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 
 #include "common/core/error.hpp"
 #include "common/dataset/instance_truth.hpp"
 #include "common/dataset/tum_folder.hpp"
+#include "common/rgbd/frame_delay.hpp"
+#include "common/rgbd/mask_faults.hpp"
 
 namespace tsg {
 
-/// Which masks come with a recorded sequence, and how late.
+/// Which masks come with a recorded sequence.
 struct MaskOptions {
-  bool use = true;       ///< the sequence's true masks, where it has some
-  int delay_frames = 0;  ///< a mask comes that many frames after its frame ...
-  int every_frames = 1;  ///< ... and only every so many frames is segmented at all
+  bool use = true;  ///< the sequence's true masks, where it has some
+  MaskFaults faults = {};
 };
 
-/// Hands out the true masks of a sequence as a segmentation process would: late and seldom.
+/// Hands out the true masks of a sequence as a segmentation process would: late, seldom and wrong.
 class MaskSource {
  public:
   /// Without masks, and no error, where the sequence has none; errors are InstanceTruth's.
@@ -31,11 +31,11 @@ class MaskSource {
                                                              std::int64_t recorded_ns);
 
  private:
-  explicit MaskSource(const MaskOptions& options) : options_(options) {}
+  explicit MaskSource(const MaskFaults& faults) : faults_(faults), delayed_(faults.late_frames) {}
 
-  MaskOptions options_;
   std::optional<InstanceTruth> truth_;
-  std::deque<InstanceSegmentation> pending_;
+  MaskFaultInjector faults_;
+  FrameDelay<InstanceSegmentation> delayed_;
   std::optional<InstanceSegmentation> latest_;
 };
 
