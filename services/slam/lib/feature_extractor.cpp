@@ -47,7 +47,10 @@ FeatureExtractor::FeatureExtractor(const FeatureConfig& config, const CameraMode
   budgets_ = share_out(config.max_features, scales_);
 }
 
-Features FeatureExtractor::extract(const RgbdFrame& frame, const cv::Mat& verdicts) {
+Features FeatureExtractor::extract(const RgbdFrame& frame,
+                                   const cv::Mat& verdicts,
+                                   DynamicPixels dynamic_pixels) {
+  dynamic_pixels_ = dynamic_pixels;
   Features features;
   features.seq = frame.seq;
   features.stamp_ns = frame.stamp_ns;
@@ -88,8 +91,9 @@ void FeatureExtractor::extract_level(std::size_t level,
   corners_.clear();
   dynamic_corners_.clear();
   for (const cv::KeyPoint& corner : detector_.detect(image, kMargin)) {
-    const bool dynamic = verdict_at(verdicts, raw_pixel(to_level_0(corner.pt, image.size()))) ==
-                         FeatureVerdict::kDynamic;
+    const bool dynamic = dynamic_pixels_ == DynamicPixels::kLeaveOut &&
+                         verdict_at(verdicts, raw_pixel(to_level_0(corner.pt, image.size()))) ==
+                             FeatureVerdict::kDynamic;
     (dynamic ? dynamic_corners_ : corners_).push_back(corner);
   }
   features.counts.dynamic += static_cast<int>(dynamic_corners_.size());

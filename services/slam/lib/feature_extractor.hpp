@@ -10,15 +10,21 @@
 
 namespace tsg {
 
+/// What becomes of features on kDynamic pixels.
+enum class DynamicPixels { kLeaveOut, kKeep };
+
 /// Finds uniformly spread multi-scale ORB features with their depth.
 /// Deterministic. Not thread-safe: buffers are reused from frame to frame.
 class FeatureExtractor {
  public:
   FeatureExtractor(const FeatureConfig& config, const CameraModel& camera);
 
-  /// `verdicts` is empty or CV_8UC1 of the frame's size with a FeatureVerdict per pixel; features
-  /// on kDynamic pixels are counted and left out, so that the others fill the budget.
-  [[nodiscard]] Features extract(const RgbdFrame& frame, const cv::Mat& verdicts);
+  /// `verdicts` is empty or CV_8UC1 of the frame's size with a FeatureVerdict per pixel. With
+  /// kLeaveOut, features on kDynamic pixels are counted and left out, so that the others fill the
+  /// budget.
+  [[nodiscard]] Features extract(const RgbdFrame& frame,
+                                 const cv::Mat& verdicts,
+                                 DynamicPixels dynamic_pixels = DynamicPixels::kLeaveOut);
 
   /// Of the last frame, the pixels (as captured) of features on kDynamic pixels, spread as those
   /// that were kept are.
@@ -41,6 +47,7 @@ class FeatureExtractor {
   std::vector<cv::KeyPoint> corners_;
   std::vector<cv::KeyPoint> dynamic_corners_;
   std::vector<cv::Point> left_out_;
+  DynamicPixels dynamic_pixels_ = DynamicPixels::kLeaveOut;
   cv::Mat blurred_;
 };
 

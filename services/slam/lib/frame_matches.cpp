@@ -10,6 +10,14 @@ void FrameMatches::drop_unmapped() {
   }
 }
 
+FrameMatches FrameMatches::onto(const Features& left, const std::vector<int>& new_index) const {
+  FrameMatches matches(left);
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (new_index[i] >= 0) matches.slots_[static_cast<std::size_t>(new_index[i])] = slots_[i];
+  }
+  return matches;
+}
+
 PoseEstimate FrameMatches::optimise(const ObservationModel& model,
                                     const SE3& T_camera_world,
                                     const PosePrior& prior) {

@@ -21,6 +21,10 @@ class FrameMatches {
   /// Drops matches to points that are not in the map.
   void drop_unmapped();
 
+  /// The same matches of the features that are left of these: `new_index` has for each feature its
+  /// place in `left`, or -1.
+  [[nodiscard]] FrameMatches onto(const Features& left, const std::vector<int>& new_index) const;
+
   /// The pose by all matches, from `T_camera_world` on; matches that do not fit it are dropped.
   PoseEstimate optimise(const ObservationModel& model,
                         const SE3& T_camera_world,

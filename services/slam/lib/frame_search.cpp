@@ -61,15 +61,27 @@ std::optional<MatchTarget> expect(const ObservationModel& model,
                      .descriptor = &last.features->descriptors[i]};
 }
 
+/// The features, by flag, that are more likely to move than `most`.
+std::vector<bool> beyond(const Features& features, FeatureVerdict most) {
+  if (most == FeatureVerdict::kDynamic) return {};
+  std::vector<bool> flags(features.size());
+  std::transform(features.items.begin(), features.items.end(), flags.begin(),
+                 [most](const Feature& feature) { return feature.verdict > most; });
+  return flags;
+}
+
 }  // namespace
 
 FrameMatches FrameSearch::match_last_frame(const TrackedFrame& last,
                                            LastFramePoints which,
                                            const SE3& T_camera_world,
                                            double radius_px) const {
+  const FeatureVerdict most =
+      classes_ == MatchedClasses::kStatic ? FeatureVerdict::kStatic : FeatureVerdict::kDynamic;
   std::vector<LastPoint> points;
   std::vector<MatchTarget> targets;
   for (std::size_t i = 0; i < last.points.size(); ++i) {
+    if (last.features->items[i].verdict > most) continue;
     const auto point = locate(model_, map_, last, i, which == LastFramePoints::kWithDepth);
     if (!point) continue;
     auto target = expect(model_, last, *point, T_camera_world, radius_px);
@@ -78,7 +90,7 @@ FrameMatches FrameSearch::match_last_frame(const TrackedFrame& last,
     points.push_back(*point);
     targets.push_back(*target);
   }
-  auto found = match_by_projection(features_, targets, {}, kLastFrameLimits);
+  auto found = match_by_projection(features_, targets, beyond(features_, most), kLastFrameLimits);
   keep_consistent_rotations(found);
   FrameMatches matches(features_);
   for (const FeatureMatch& match : found) {

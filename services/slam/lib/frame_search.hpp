@@ -24,11 +24,20 @@ enum class LastFramePoints {
   kWithDepth,  ///< all that have a depth, which carries the pose on where there is no map yet
 };
 
+/// Which features of the two frames may be matched.
+enum class MatchedClasses {
+  kStatic,  ///< only on things that never move: those that may move wait until they were judged
+  kAll,
+};
+
 /// Finds points in the features of one frame. Holds references only: lives as long as the call.
 class FrameSearch {
  public:
-  FrameSearch(const ObservationModel& model, const LocalMapSnapshot& map, const Features& features)
-      : model_(model), map_(map), features_(features) {}
+  FrameSearch(const ObservationModel& model,
+              const LocalMapSnapshot& map,
+              const Features& features,
+              MatchedClasses classes = MatchedClasses::kAll)
+      : model_(model), map_(map), features_(features), classes_(classes) {}
 
   /// The points of `last`, within `radius_px` of where `T_camera_world` shows them.
   [[nodiscard]] FrameMatches match_last_frame(const TrackedFrame& last,
@@ -49,6 +58,7 @@ class FrameSearch {
   const ObservationModel& model_;
   const LocalMapSnapshot& map_;
   const Features& features_;
+  MatchedClasses classes_;
 };
 
 }  // namespace tsg

@@ -24,17 +24,16 @@ constexpr double kMaxContradiction = 0.2;  // things may have been moved since, 
 
 }  // namespace
 
-std::optional<Fix> PoseFinder::find(const PoseQuery& query) {
-  std::optional<Fix> fix;
-  if (!query.is_lost) fix = by_last_frame(query);
+std::optional<Fix> PoseFinder::find(const PoseQuery& query, std::optional<Fix> fix) {
   if (fix && refine(query, *fix) && !is_weak(*fix)) return fix;
   if (auto shaped = by_surface(query); shaped && refine(query, *shaped)) return shaped;
   if (fix && fix->inliers >= config_.tracker.min_inliers) return fix;
   return by_keyframes(query);
 }
 
-std::optional<Fix> PoseFinder::by_last_frame(const PoseQuery& query) const {
-  const FrameSearch search(model_, query.map, query.features);
+std::optional<Fix> PoseFinder::find_first(const PoseQuery& query, MatchedClasses classes) const {
+  if (query.is_lost || query.last == nullptr) return std::nullopt;
+  const FrameSearch search(model_, query.map, query.features, classes);
   const int enough = kEnoughMatches * config_.tracker.min_inliers;
   begin(TrackingStage::kMatch);
   FrameMatches matches = search.match_last_frame(*query.last, LastFramePoints::kMapped,

@@ -38,11 +38,14 @@ class PoseFinder {
              const std::function<void(TrackingStage)>& on_stage)
       : config_(config), model_(model), on_stage_(on_stage) {}
 
-  /// Each way in turn, the cheap ones first; the first pose that the map confirms.
-  [[nodiscard]] std::optional<Fix> find(const PoseQuery& query);
+  /// A first pose by what the last frame saw; nothing where the camera was lost.
+  [[nodiscard]] std::optional<Fix> find_first(const PoseQuery& query, MatchedClasses classes) const;
+
+  /// Each way in turn, the cheap ones first; the first pose that the map confirms. `first` is what
+  /// find_first() gave for the same features.
+  [[nodiscard]] std::optional<Fix> find(const PoseQuery& query, std::optional<Fix> first);
 
  private:
-  [[nodiscard]] std::optional<Fix> by_last_frame(const PoseQuery& query) const;
   [[nodiscard]] std::optional<Fix> by_surface(const PoseQuery& query) const;
   [[nodiscard]] std::optional<Fix> by_keyframes(const PoseQuery& query);
   [[nodiscard]] std::optional<Fix> by_keyframe(const PoseQuery& query,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "services/slam/lib/dynamic/dynamic_filter.hpp"
+#include "services/slam/lib/dynamic/static_features.hpp"
 #include "services/slam/lib/feature_extractor.hpp"
 #include "services/slam/lib/keyframe_policy.hpp"
 #include "services/slam/lib/observation_model.hpp"
@@ -23,12 +24,19 @@ std::vector<PointSighting> sorted(const std::unordered_map<PointId, PointSightin
   return list;
 }
 
-FrameVerdicts judged(const Features& kept, const std::vector<cv::Point>& left_out) {
+std::shared_ptr<const FrameVerdicts> report(const Features& features,
+                                            const std::vector<cv::Point>& left_out,
+                                            Judgement judgement) {
   FrameVerdicts verdicts;
-  verdicts.features.reserve(kept.size() + left_out.size());
-  for (const Feature& feature : kept.items) {
+  verdicts.features.reserve(features.size() + left_out.size());
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const Feature& feature = features.items[i];
     verdicts.features.push_back(
-        {.raw_x = feature.raw_x, .raw_y = feature.raw_y, .prior = feature.verdict});
+        {.raw_x = feature.raw_x,
+         .raw_y = feature.raw_y,
+         .prior = feature.verdict,
+         .is_dynamic = !judgement.is_dynamic.empty() && judgement.is_dynamic[i],
+         .epipolar_px = judgement.epipolar_px.empty() ? -1.0F : judgement.epipolar_px[i]});
   }
   for (const cv::Point& pixel : left_out) {
     verdicts.features.push_back({.raw_x = static_cast<std::int16_t>(pixel.x),
@@ -36,10 +44,17 @@ FrameVerdicts judged(const Features& kept, const std::vector<cv::Point>& left_ou
                                  .prior = FeatureVerdict::kDynamic,
                                  .is_dynamic = true});
   }
-  return verdicts;
+  verdicts.instances = std::move(judgement.instances);
+  return std::make_shared<const FrameVerdicts>(std::move(verdicts));
 }
 
 }  // namespace
+
+/// What is known of a frame before the map is asked.
+struct FirstLook {
+  std::shared_ptr<const Features> features;  ///< without those that move
+  std::optional<Fix> fix;                    ///< by the last frame alone
+};
 
 struct Tracker::Impl {
   Impl(const SlamConfig& slam_config,
@@ -48,7 +63,7 @@ struct Tracker::Impl {
       : config(slam_config),
         model(camera, slam_config),
         extractor(slam_config.features, camera),
-        filter(slam_config.dynamic_filter, camera),
+        filter(slam_config, model),
         on_stage(std::move(stage_listener)),
         finder(config, model, on_stage) {}
 
@@ -58,6 +73,10 @@ struct Tracker::Impl {
   [[nodiscard]] bool is_lost_for_long(std::int64_t stamp_ns) const;
   void follow_map(const LocalMapSnapshot& map);
   [[nodiscard]] SE3 predict(std::int64_t stamp_ns) const;
+  [[nodiscard]] PoseQuery query(const Features& features, const LocalMapSnapshot& map) const;
+  [[nodiscard]] FirstLook look(const std::shared_ptr<const Features>& features,
+                               const LocalMapSnapshot& map,
+                               TrackResult& result);
 
   void count_sightings(const Fix& fix);
 
@@ -74,7 +93,6 @@ struct Tracker::Impl {
   SlamConfig config;
   ObservationModel model;
   FeatureExtractor extractor;
-  std::shared_ptr<const FrameVerdicts> verdicts;  ///< of the frame that was last extracted
   DynamicFilter filter;
   std::function<void(TrackingStage)> on_stage;
   PoseFinder finder;
@@ -108,7 +126,7 @@ void Tracker::Impl::start_map(const std::shared_ptr<const Features>& features,
   result.T_world_camera = SE3();
   result.part = part;
   result.reference = next_keyframe;
-  filter.note_pose(features->seq, SE3());
+  filter.note_pose(SE3());
   result.keyframe = make_candidate();
 }
 
@@ -173,6 +191,35 @@ SE3 Tracker::Impl::predict(std::int64_t stamp_ns) const {
   return last->T_world_camera * SE3::exp(twist_per_second * seconds);
 }
 
+PoseQuery Tracker::Impl::query(const Features& features, const LocalMapSnapshot& map) const {
+  return {.features = features,
+          .map = map,
+          .last = last ? &*last : nullptr,
+          .T_predicted_world = predict(features.stamp_ns).inverse(),
+          .is_lost = lost};
+}
+
+/// A pose by what never moves, then what moves by that pose (paper, section 4.3).
+FirstLook Tracker::Impl::look(const std::shared_ptr<const Features>& features,
+                              const LocalMapSnapshot& map,
+                              TrackResult& result) {
+  FirstLook first{.features = features, .fix = std::nullopt};
+  const bool needs_pose = config.dynamic_filter.method == DynamicMethod::kFull;
+  if (needs_pose) {
+    first.fix = finder.find_first(query(*features, map), MatchedClasses::kStatic);
+    if (!first.fix) first.fix = finder.find_first(query(*features, map), MatchedClasses::kAll);
+  }
+  const SE3 T_world_camera = first.fix ? first.fix->T_camera_world.inverse() : SE3();
+  Judgement judgement = filter.judge_by_motion(*features, first.fix ? &T_world_camera : nullptr);
+  const StaticFeatures kept = keep_static(features, judgement, model.camera());
+  first.features = kept.features;
+  result.features = first.features->counts;
+  result.verdicts = report(*features, extractor.left_out(), std::move(judgement));
+  if (first.fix) first.fix->matches = first.fix->matches.onto(*kept.features, kept.new_index);
+  if (!needs_pose) first.fix = finder.find_first(query(*kept.features, map), MatchedClasses::kAll);
+  return first;
+}
+
 void Tracker::Impl::count_sightings(const Fix& fix) {
   if (config.tracker.localisation_only) return;  // nobody would ever take them
   const auto of = [this](PointId id) -> PointSighting& {
@@ -210,7 +257,7 @@ void Tracker::Impl::accept(const std::shared_ptr<const Features>& features,
   lost = false;
   if (!map.keyframes.empty()) part = map.part;
   last = std::move(now);
-  filter.note_pose(features->seq, last->T_world_camera);
+  filter.note_pose(last->T_world_camera);
   result.state = TrackingState::kTracking;
   result.T_world_camera = last->T_world_camera;
   result.part = part;
@@ -267,13 +314,14 @@ Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
 std::shared_ptr<const Features> Tracker::extract(const RgbdFrame& frame,
                                                  const InstanceSegmentation* mask) {
-  const cv::Mat verdicts = impl_->filter.judge(frame, mask, impl_->predict(frame.stamp_ns));
-  Features features = impl_->extractor.extract(frame, verdicts);
+  const cv::Mat verdicts =
+      impl_->filter.judge_by_class(frame, mask, impl_->predict(frame.stamp_ns));
+  const auto dynamic_pixels =
+      impl_->filter.leaves_out_by_class() ? DynamicPixels::kLeaveOut : DynamicPixels::kKeep;
+  Features features = impl_->extractor.extract(frame, verdicts, dynamic_pixels);
   if (!verdicts.empty()) {
     features.mask_age_frames = static_cast<int>(frame.seq - mask->frame_seq);
   }
-  impl_->verdicts =
-      std::make_shared<const FrameVerdicts>(judged(features, impl_->extractor.left_out()));
   return std::make_shared<const Features>(std::move(features));
 }
 
@@ -282,28 +330,26 @@ TrackResult Tracker::track(const std::shared_ptr<const Features>& features,
   TrackResult result{.seq = features->seq,
                      .stamp_ns = features->stamp_ns,
                      .features = features->counts,
-                     .mask_age_frames = features->mask_age_frames,
-                     .verdicts = impl_->verdicts};
+                     .mask_age_frames = features->mask_age_frames};
+  impl_->filter.note_features(features);
   if (!impl_->started && whole_map.keyframes.empty()) {
+    result.verdicts = report(*features, impl_->extractor.left_out(), {});
     impl_->start_map(features, result);
     return result;
   }
   if (!impl_->started) impl_->enter_map(whole_map, features->stamp_ns);
   const LocalMapSnapshot& map = impl_->follow_part(whole_map);
   impl_->follow_map(map);
+  FirstLook first = impl_->look(features, map, result);
   const std::optional<Fix> fix =
-      impl_->finder.find({.features = *features,
-                          .map = map,
-                          .last = impl_->last ? &*impl_->last : nullptr,
-                          .T_predicted_world = impl_->predict(features->stamp_ns).inverse(),
-                          .is_lost = impl_->lost});
+      impl_->finder.find(impl_->query(*first.features, map), std::move(first.fix));
   if (!fix) {
     impl_->lose(result, impl_->why_lost());
-    if (impl_->is_lost_for_long(features->stamp_ns)) impl_->begin_part(features, result);
+    if (impl_->is_lost_for_long(features->stamp_ns)) impl_->begin_part(first.features, result);
     return result;
   }
   result.matches = fix->matches.count();
-  impl_->accept(features, map, *fix, result);
+  impl_->accept(first.features, map, *fix, result);
   if (impl_->filter.has_new_mask() && !impl_->config.tracker.localisation_only) {
     for (const SnapshotPoint& point : map.points) {
       if (impl_->filter.was_dynamic(point.position)) result.dynamic_points.push_back(point.id);

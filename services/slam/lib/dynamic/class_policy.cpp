@@ -32,7 +32,7 @@ VerdictOfLabel verdict_of_labels(const InstanceSegmentation& mask,
   return verdicts;
 }
 
-cv::Mat exact_verdicts(const InstanceSegmentation& mask, const DynamicFilterConfig& config) {
+cv::Mat verdicts_of_pixels(const InstanceSegmentation& mask, const DynamicFilterConfig& config) {
   const VerdictOfLabel verdict_of = verdict_of_labels(mask, config);
   cv::Mat table(1, 256, CV_8UC1);
   for (int label = 0; label < 256; ++label) {
@@ -41,6 +41,11 @@ cv::Mat exact_verdicts(const InstanceSegmentation& mask, const DynamicFilterConf
   }
   cv::Mat verdicts;
   cv::LUT(mask.labels, table, verdicts);
+  return verdicts;
+}
+
+cv::Mat exact_verdicts(const InstanceSegmentation& mask, const DynamicFilterConfig& config) {
+  cv::Mat verdicts = verdicts_of_pixels(mask, config);
   dilate_dynamic(verdicts, static_cast<int>(std::lround(config.dilation_px)));
   return verdicts;
 }

@@ -17,8 +17,12 @@ using VerdictOfLabel = std::array<FeatureVerdict, 256>;
 [[nodiscard]] VerdictOfLabel verdict_of_labels(const InstanceSegmentation& mask,
                                                const DynamicFilterConfig& config);
 
-/// A FeatureVerdict for each pixel of the frame that `mask` belongs to (CV_8UC1, its size); dynamic
-/// instances are dilated by config.dilation_px.
+/// A FeatureVerdict for each pixel of the frame that `mask` belongs to (CV_8UC1, its size).
+[[nodiscard]] cv::Mat verdicts_of_pixels(const InstanceSegmentation& mask,
+                                         const DynamicFilterConfig& config);
+
+/// The same, with dynamic instances dilated by config.dilation_px: without depth their edges are
+/// not known better.
 [[nodiscard]] cv::Mat exact_verdicts(const InstanceSegmentation& mask,
                                      const DynamicFilterConfig& config);
 

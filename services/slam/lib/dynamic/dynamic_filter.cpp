@@ -1,6 +1,7 @@
 #include "services/slam/lib/dynamic/dynamic_filter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -8,281 +9,263 @@
 
 #include "common/core/time.hpp"
 #include "services/slam/lib/dynamic/class_policy.hpp"
+#include "services/slam/lib/dynamic/depth_cells.hpp"
+// EPI#include "services/slam/lib/dynamic/epipolar_coupling.hpp"
+#include "services/slam/lib/dynamic/seen_through.hpp"
 
 namespace tsg {
 namespace {
 
-constexpr int kReduction = 4;               // side of a full-size square that becomes one pixel
-constexpr std::size_t kPastFrames = 32;     // a second, as masks come late
-constexpr std::size_t kMinBodyPoints = 12;  // small pixels; less is noise at the end of range
-constexpr double kMaxBodySpeed = 2.5;       // m/s; a faster "body" is two instances taken for one
-constexpr double kUnknownDepth = 2.0;       // metres, for masks of frames that were never seen
-constexpr double kOnSurface = 0.1;          // metres; what lies deeper is not the body
-constexpr float kMinDepth = 0.1F;           // metres
-constexpr float kConnectedStep = 0.04F;     // relative depth step within one surface
-constexpr std::uint8_t kMarked = 255;
+constexpr double kUnknownDepth = 2.0;  // metres, for masks of frames that were never seen
+constexpr double kOnSurface = 0.1;     // metres; what lies deeper is not the thing
+constexpr float kMinDepth = 0.1F;      // metres
+constexpr int kMinAppearedCells = 24;  // specks are noise at the end of range
+constexpr int kRimCells = 2;           // around what appeared: silhouettes are left to it
+/// How long ago depth is compared with: fast things show in the first, slow ones in the last.
+constexpr std::array<std::int64_t, 3> kDepthAges{200'000'000, 700'000'000, 1'200'000'000};
+/// How long ago features are compared with, the first that is there: the longer, the more parallax
+/// and the more motion, until looks change.
+constexpr std::array<std::int64_t, 4> kFeatureAges{400'000'000, 270'000'000, 160'000'000,
+                                                   90'000'000};
 
-/// Nearest valid raw depth of the inner four pixels of square `x`; 0 where there is none. The
-/// nearest, as what moves usually stands in front.
-std::uint16_t nearest_of(const std::uint16_t* upper, const std::uint16_t* lower, int x) {
-  const int left = x * kReduction + 1;
-  std::uint16_t nearest = 0;
-  for (const std::uint16_t raw : {upper[left], upper[left + 1], lower[left], lower[left + 1]}) {
-    if (raw > 0 && (nearest == 0 || raw < nearest)) nearest = raw;
-  }
-  return nearest;
+cv::Point cell_of(const Feature& feature) {
+  return {feature.raw_x / kCellSide, feature.raw_y / kCellSide};
 }
 
-/// Depth of each square in metres; 0 where there is none.
-cv::Mat reduce_depth(const RgbdFrame& frame) {
-  cv::Mat small(frame.depth.rows / kReduction, frame.depth.cols / kReduction, CV_32FC1);
-  const auto metres_per_unit = static_cast<float>(1.0 / frame.depth_units_per_metre);
-  for (int y = 0; y < small.rows; ++y) {
-    const auto* upper = frame.depth.ptr<std::uint16_t>(y * kReduction + 1);
-    const auto* lower = frame.depth.ptr<std::uint16_t>(y * kReduction + 2);
-    for (int x = 0; x < small.cols; ++x) {
-      small.at<float>(y, x) = static_cast<float>(nearest_of(upper, lower, x)) * metres_per_unit;
-    }
-  }
-  return small;
-}
-
-CameraModel reduced(const CameraModel& camera) {
-  CameraModel small = camera;
-  small.width = camera.width / kReduction;
-  small.height = camera.height / kReduction;
-  // Pixel centres are at integers, so the image's corner is at (-0.5, -0.5).
-  small.fx = camera.fx / kReduction;
-  small.fy = camera.fy / kReduction;
-  small.cx = (camera.cx + 0.5) / kReduction - 0.5;
-  small.cy = (camera.cy + 0.5) / kReduction - 0.5;
-  return small;
-}
-
-cv::Point full_pixel(int small_x, int small_y) {
-  return {small_x * kReduction + kReduction / 2, small_y * kReduction + kReduction / 2};
-}
-
-Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d median;
-  std::vector<double> values(points.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    std::transform(points.begin(), points.end(), values.begin(),
-                   [axis](const auto& point) { return point[axis]; });
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    median[axis] = *middle;
-  }
-  return median;
-}
-
-/// Depths that a body can have, metres.
-struct DepthRange {
-  float nearest = 0.0F;
-  float farthest = 0.0F;
-};
-
-/// Marks the neighbours of `from` that belong to the same surface and adds them to `next`.
-void spread(const cv::Mat& depth,
-            const DepthRange& range,
-            const cv::Point& from,
-            cv::Mat& marked,
-            std::vector<cv::Point>& next) {
-  const cv::Rect inside(0, 0, depth.cols, depth.rows);
-  const float here = depth.at<float>(from);
-  for (const cv::Point& side :
-       {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
-    const cv::Point to = from + side;
-    if (!inside.contains(to) || marked.at<std::uint8_t>(to) != 0) continue;
-    const float there = depth.at<float>(to);
-    if (there < range.nearest || there > range.farthest) continue;
-    if (here > 0.0F && std::abs(there - here) > kConnectedStep * here) continue;
-    marked.at<std::uint8_t>(to) = kMarked;
-    next.push_back(to);
-  }
-}
-
-/// Marks what is connected to the marked pixels in `depth`, `steps` pixels far at most.
-void grow(const cv::Mat& depth, const DepthRange& range, int steps, cv::Mat& marked) {
-  std::vector<cv::Point> front;
-  cv::findNonZero(marked, front);
-  std::vector<cv::Point> next;
-  for (int step = 0; step < steps && !front.empty(); ++step) {
-    next.clear();
-    for (const cv::Point& from : front) spread(depth, range, from, marked, next);
-    std::swap(front, next);
-  }
+/// Cells without depth beside what moves are its shadow in the sensor's light.
+void add_shadow(const cv::Mat& depth, cv::Mat& moving) {
+  cv::Mat near;
+  cv::dilate(moving, near, cv::Mat(), {-1, -1}, kRimCells);
+  moving.setTo(255, near & (depth <= 0.0));
 }
 
 }  // namespace
 
-DynamicFilter::DynamicFilter(DynamicFilterConfig config, const CameraModel& camera)
-    : config_(std::move(config)), camera_(camera), small_camera_(reduced(camera)) {}
+DynamicFilter::DynamicFilter(const SlamConfig& config, const ObservationModel& model)
+    : config_(config.dynamic_filter),
+      model_(model),
+      cell_camera_(camera_of_cells(model.camera())),
+      tracks_(config_, cell_camera_) {}
 
-cv::Mat DynamicFilter::judge(const RgbdFrame& frame,
-                             const InstanceSegmentation* mask,
-                             const SE3& T_world_camera) {
-  remember(frame);
+bool DynamicFilter::leaves_out_by_class() const {
+  return config_.method == DynamicMethod::kMask || config_.method == DynamicMethod::kFull;
+}
+
+cv::Mat DynamicFilter::judge_by_class(const RgbdFrame& frame,
+                                      const InstanceSegmentation* mask,
+                                      const SE3& T_world_camera) {
+  past_.add({.seq = frame.seq, .stamp_ns = frame.stamp_ns, .depth = depth_of_cells(frame)});
   has_new_mask_ = false;
-  if (mask == nullptr || mask->frame_seq > frame.seq) return {};
-  has_new_mask_ = mask_seq_ != mask->frame_seq;
-  if (has_new_mask_) take_in(*mask);
+  located_.release();
+  const bool uses_masks =
+      config_.method != DynamicMethod::kNone && config_.method != DynamicMethod::kEpipolar;
+  if (!uses_masks || mask == nullptr || mask->frame_seq > frame.seq) return {};
   const std::uint64_t age = frame.seq - mask->frame_seq;
-  if (age == 0) return exact_verdicts(*mask, config_);
-  if (age > static_cast<std::uint64_t>(config_.max_mask_age_frames)) return {};
-  if (placed_) return carry_forward(frame, T_world_camera);
+  if (age > static_cast<std::uint64_t>(config_.max_mask_age_frames)) {
+    tracks_.clear();
+    return {};
+  }
+  if (config_.method != DynamicMethod::kFull) return exact_verdicts(*mask, config_);
+  if (take_in(*mask, T_world_camera)) {
+    located_ = tracks_.locate(past_.now(), T_world_camera, age == 0 ? mask : nullptr);
+    return by_place(*mask, frame.colour.size());
+  }
+  // Nobody knows from where that mask was seen: it is believed as it is, with room to move.
   const double metres = config_.max_speed_mps * to_seconds(frame.stamp_ns - mask->stamp_ns);
   cv::Mat verdicts = exact_verdicts(*mask, config_);
-  dilate_dynamic(verdicts, static_cast<int>(metres * camera_.fx / kUnknownDepth));
+  dilate_dynamic(verdicts, static_cast<int>(metres * model_.camera().fx / kUnknownDepth));
   return verdicts;
 }
 
-void DynamicFilter::note_pose(std::uint64_t seq, const SE3& T_world_camera) {
-  for (PastFrame& past : past_) {
-    if (past.seq == seq) past.T_world_camera = T_world_camera;
-  }
-}
-
-void DynamicFilter::leave_world() {
-  for (PastFrame& past : past_) past.T_world_camera.reset();
-  bodies_.clear();
-  placed_ = false;
-}
-
-void DynamicFilter::move_world(const SE3& T_moved_world) {
-  for (PastFrame& past : past_) {
-    if (past.T_world_camera) past.T_world_camera = T_moved_world * *past.T_world_camera;
-  }
-  for (Body& body : bodies_) {
-    for (Eigen::Vector3d& point : body.points) point = T_moved_world * point;
-    body.centre = T_moved_world * body.centre;
-    body.v_world = T_moved_world.rotation() * body.v_world;
-  }
-}
-
-bool DynamicFilter::was_dynamic(const Eigen::Vector3d& p_world) const {
-  const PastFrame* past = mask_seq_ ? find_past(*mask_seq_) : nullptr;
-  if (past == nullptr || !past->T_world_camera) return false;
-  const Eigen::Vector3d p_camera = past->T_world_camera->inverse() * p_world;
-  if (p_camera.z() < kMinDepth) return false;
-  const Eigen::Vector2d pixel = small_camera_.project(p_camera);
-  if (!small_camera_.contains(pixel)) return false;
-  const cv::Point nearest(cvRound(pixel.x()), cvRound(pixel.y()));
-  if (small_dynamic_.at<std::uint8_t>(nearest) == 0) return false;
-  const double depth = past->small_depth.at<float>(nearest);
-  return depth > 0.0 && std::abs(depth - p_camera.z()) < kOnSurface;
-}
-
-void DynamicFilter::remember(const RgbdFrame& frame) {
-  past_.push_back({frame.seq, reduce_depth(frame), std::nullopt});
-  if (past_.size() > kPastFrames) past_.pop_front();
-}
-
-void DynamicFilter::take_in(const InstanceSegmentation& mask) {
-  const std::vector<Body> before = std::move(bodies_);
-  bodies_.clear();
-  const double seconds = mask_seq_ ? to_seconds(mask.stamp_ns - mask_stamp_ns_) : 0.0;
+/// False where the place of the mask's frame is not known.
+bool DynamicFilter::take_in(const InstanceSegmentation& mask, const SE3& T_world_camera) {
+  const PastFrame* frame = past_.find(mask.frame_seq);
+  if (frame == nullptr) return false;
+  if (mask_seq_ == mask.frame_seq) return !mask_dynamic_.empty();
+  has_new_mask_ = true;
   mask_seq_ = mask.frame_seq;
-  mask_stamp_ns_ = mask.stamp_ns;
+  mask_dynamic_.release();
+  const bool is_now = frame == &past_.now();
+  if (!is_now && !frame->T_world_camera) return false;
+  tracks_.take_in(mask, *frame, is_now ? T_world_camera : *frame->T_world_camera);
   const VerdictOfLabel verdict_of = verdict_of_labels(mask, config_);
-  small_dynamic_.create(small_camera_.height, small_camera_.width, CV_8UC1);
-  for (int y = 0; y < small_dynamic_.rows; ++y) {
-    for (int x = 0; x < small_dynamic_.cols; ++x) {
-      const bool dynamic =
-          verdict_of[mask.labels.at<std::uint8_t>(full_pixel(x, y))] == FeatureVerdict::kDynamic;
-      small_dynamic_.at<std::uint8_t>(y, x) = dynamic ? kMarked : 0;
+  mask_dynamic_.create(cell_camera_.height, cell_camera_.width, CV_8UC1);
+  for (int y = 0; y < mask_dynamic_.rows; ++y) {
+    for (int x = 0; x < mask_dynamic_.cols; ++x) {
+      const std::uint8_t label = mask.labels.at<std::uint8_t>(pixel_of_cell(x, y));
+      const bool dynamic = verdict_of[label] == FeatureVerdict::kDynamic;
+      mask_dynamic_.at<std::uint8_t>(y, x) = dynamic ? 255 : 0;
     }
   }
-  const PastFrame* past = find_past(mask.frame_seq);
-  placed_ = past != nullptr && past->T_world_camera.has_value();
-  if (!placed_) return;
-  measure_bodies(mask, *past);
-  if (seconds > 0.0) estimate_velocities(before, seconds);
+  return true;
 }
 
-void DynamicFilter::measure_bodies(const InstanceSegmentation& mask, const PastFrame& past) {
-  std::vector<Body> by_label(mask.instances.size() + 1);
-  for (int y = 0; y < small_dynamic_.rows; ++y) {
-    for (int x = 0; x < small_dynamic_.cols; ++x) {
-      const float depth = past.small_depth.at<float>(y, x);
-      const std::size_t label = mask.labels.at<std::uint8_t>(full_pixel(x, y));
-      if (small_dynamic_.at<std::uint8_t>(y, x) == 0 || depth <= 0.0F) continue;
-      const Eigen::Vector3d p_camera = small_camera_.unproject({x, y}, depth);
-      by_label[label].points.push_back(*past.T_world_camera * p_camera);
-    }
+/// By where the tracks are, and where the mask is of this very frame by its pixels too.
+cv::Mat DynamicFilter::by_place(const InstanceSegmentation& mask, const cv::Size& size) const {
+  cv::Mat table = cv::Mat::zeros(1, 256, CV_8UC1);
+  cv::Mat dynamic = cv::Mat::zeros(located_.size(), CV_8UC1);
+  for (std::size_t i = 0; i < tracks_.tracks().size(); ++i) {
+    table.at<std::uint8_t>(static_cast<int>(i) + 1) =
+        static_cast<std::uint8_t>(tracks_.tracks()[i].prior);
   }
-  for (std::size_t label = 1; label < by_label.size(); ++label) {
-    Body& body = by_label[label];
-    if (body.points.size() < kMinBodyPoints) continue;
-    body.class_name = mask.instances[label - 1].class_name;
-    body.centre = median_of(body.points);
-    bodies_.push_back(std::move(body));
-  }
-}
-
-void DynamicFilter::estimate_velocities(const std::vector<Body>& before, double seconds) {
-  for (Body& body : bodies_) {
-    double least_speed = kMaxBodySpeed;
-    for (const Body& candidate : before) {
-      if (candidate.class_name != body.class_name) continue;
-      const Eigen::Vector3d v_world = (body.centre - candidate.centre) / seconds;
-      if (v_world.norm() > least_speed) continue;
-      least_speed = v_world.norm();
-      body.v_world = v_world;
-    }
-  }
-}
-
-cv::Mat DynamicFilter::carry_forward(const RgbdFrame& frame, const SE3& T_world_camera) const {
-  const double age_s = to_seconds(frame.stamp_ns - mask_stamp_ns_);
-  const SE3 T_camera_world = T_world_camera.inverse();
-  cv::Mat dynamic = cv::Mat::zeros(small_camera_.height, small_camera_.width, CV_8UC1);
-  for (const Body& body : bodies_) {
-    cv::Mat marked = cv::Mat::zeros(dynamic.size(), CV_8UC1);
-    mark_body(body, age_s, T_camera_world, marked);
-    dynamic |= marked;
-  }
+  cv::Mat cells;
+  cv::LUT(located_, table, cells);
+  dynamic = cells == static_cast<double>(FeatureVerdict::kDynamic);
+  add_shadow(past_.now().depth, dynamic);
+  cells.setTo(static_cast<double>(FeatureVerdict::kDynamic), dynamic);
   cv::Mat verdicts;
-  cv::resize(dynamic, verdicts, frame.colour.size(), 0.0, 0.0, cv::INTER_NEAREST);
-  verdicts.setTo(static_cast<double>(FeatureVerdict::kDynamic), verdicts);
+  cv::resize(cells, verdicts, {cells.cols * kCellSide, cells.rows * kCellSide}, 0, 0,
+             cv::INTER_NEAREST);
+  cv::copyMakeBorder(verdicts, verdicts, 0, size.height - verdicts.rows, 0,
+                     size.width - verdicts.cols, cv::BORDER_REPLICATE);
+  if (mask.frame_seq == past_.now().seq) {
+    cv::max(verdicts, verdicts_of_pixels(mask, config_), verdicts);
+  }
+  // A corner beside a silhouette is half of what moves, whatever its depth.
   dilate_dynamic(verdicts, static_cast<int>(std::lround(config_.dilation_px)));
   return verdicts;
 }
 
-void DynamicFilter::mark_body(const Body& body,
-                              double age_s,
-                              const SE3& T_camera_world,
-                              cv::Mat& marked) const {
-  const cv::Mat& depth = past_.back().small_depth;
-  const double reach_m = config_.max_speed_mps * age_s;
-  const double tolerance_m = config_.depth_tolerance_m + reach_m;
-  std::vector<double> depths;
-  for (const Eigen::Vector3d& p_then : body.points) {
-    const Eigen::Vector3d p_camera = T_camera_world * (p_then + age_s * body.v_world);
-    if (p_camera.z() < kMinDepth) continue;
-    depths.push_back(p_camera.z());
-    const Eigen::Vector2d pixel = small_camera_.project(p_camera);
-    if (!small_camera_.contains(pixel)) continue;
-    const cv::Point nearest(cvRound(pixel.x()), cvRound(pixel.y()));
-    const double seen = depth.at<float>(nearest);
-    // Without a depth there the sensor cannot tell: rather drop a feature than keep a moving one.
-    if (seen > 0.0 && std::abs(seen - p_camera.z()) > tolerance_m) continue;
-    marked.at<std::uint8_t>(nearest) = kMarked;
+Judgement DynamicFilter::judge_by_motion(const Features& features, const SE3* T_world_camera) {
+  switch (config_.method) {
+    case DynamicMethod::kEpipolar:
+    case DynamicMethod::kTsg:
+      return judge_by_epipolar(features);
+    case DynamicMethod::kFull: {
+      if (T_world_camera != nullptr) return judge_by_depth(features, *T_world_camera);
+      Judgement by_class;
+      by_class.instances = states();
+      return by_class;
+    }
+    case DynamicMethod::kNone:
+    case DynamicMethod::kMask:
+      break;
   }
-  if (depths.empty()) return;
-  std::sort(depths.begin(), depths.end());
-  const double nearest = depths[depths.size() / 20];
-  const double farthest = depths[depths.size() - 1 - depths.size() / 20];
-  const int steps = 1 + static_cast<int>(std::lround(reach_m * small_camera_.fx / nearest));
-  const DepthRange range{static_cast<float>(nearest - tolerance_m),
-                         static_cast<float>(farthest + tolerance_m)};
-  grow(depth, range, steps, marked);
+  return {};
 }
 
-const DynamicFilter::PastFrame* DynamicFilter::find_past(std::uint64_t seq) const {
-  const auto past = std::find_if(past_.begin(), past_.end(),
-                                 [seq](const PastFrame& frame) { return frame.seq == seq; });
-  return past == past_.end() ? nullptr : &*past;
+Judgement DynamicFilter::judge_by_epipolar(const Features& features) const {
+  const PastFrame* previous = past_.before(1);
+  if (previous == nullptr || previous->features == nullptr) return {};
+  (void)features;
+  return {};
+}
+Judgement DynamicFilter::judge_by_depth(const Features& features, const SE3& T_world_camera) {
+  const cv::Mat evidence = compare_with_past(T_world_camera);
+  const auto motion = compare_with_reference(features, T_world_camera);
+  if (!located_.empty()) weigh_tracks(features, motion, evidence);
+  Judgement judgement;
+  judgement.is_dynamic = moving_in_company(features, motion);
+  judgement.dynamic_cells = moving_cells(evidence);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const cv::Point cell = cell_of(features.items[i]);
+    if (judgement.dynamic_cells.at<std::uint8_t>(cell) != 0) judgement.is_dynamic[i] = true;
+  }
+  judgement.instances = states();
+  return judgement;
+}
+
+cv::Mat DynamicFilter::compare_with_past(const SE3& T_world_camera) const {
+  const PastFrame& now = past_.now();
+  cv::Mat evidence = cv::Mat::zeros(now.depth.size(), CV_8UC1);
+  for (const std::int64_t age_ns : kDepthAges) {
+    const PastFrame* then = past_.before(age_ns);
+    if (then == nullptr) continue;
+    compare_depth(cell_camera_, {now.depth, T_world_camera}, {then->depth, *then->T_world_camera},
+                  model_.inverse_depth_sigma(), evidence);
+  }
+  return evidence;
+}
+
+std::vector<FeatureMotion> DynamicFilter::compare_with_reference(const Features& features,
+                                                                 const SE3& T_world_camera) const {
+  for (const std::int64_t age_ns : kFeatureAges) {
+    const PastFrame* then = past_.before(age_ns);
+    if (then == nullptr || then->features == nullptr) continue;
+    return compare_features(model_, {features, T_world_camera},
+                            {*then->features, *then->T_world_camera});
+  }
+  return std::vector<FeatureMotion>(features.size(), FeatureMotion::kUnknown);
+}
+
+void DynamicFilter::weigh_tracks(const Features& features,
+                                 const std::vector<FeatureMotion>& motion,
+                                 const cv::Mat& evidence) {
+  std::vector<MotionCounts> counts(tracks_.tracks().size() + 1);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    MotionCounts& of_track = counts[located_.at<std::uint8_t>(cell_of(features.items[i]))];
+    of_track.features_moved += motion[i] == FeatureMotion::kMoved ? 1 : 0;
+    of_track.features_still += motion[i] == FeatureMotion::kStill ? 1 : 0;
+  }
+  for (int y = 0; y < evidence.rows; ++y) {
+    const auto* says = evidence.ptr<std::uint8_t>(y);
+    const auto* track = located_.ptr<std::uint8_t>(y);
+    for (int x = 0; x < evidence.cols; ++x) {
+      const auto cell = static_cast<CellEvidence>(says[x]);
+      counts[track[x]].cells_appeared += cell == CellEvidence::kAppeared ? 1 : 0;
+      counts[track[x]].cells_same += cell == CellEvidence::kSame ? 1 : 0;
+    }
+  }
+  for (std::size_t i = 0; i + 1 < counts.size(); ++i) tracks_.add_evidence(i, counts[i + 1]);
+}
+
+/// Instances that move, and what has come to where there was nothing.
+cv::Mat DynamicFilter::moving_cells(const cv::Mat& evidence) const {
+  const cv::Mat& depth = past_.now().depth;
+  cv::Mat moving = appeared_regions(evidence, kMinAppearedCells);
+  grow_over_surface(depth, {.nearest = kMinDepth, .farthest = 100.0F, .steps = kRimCells}, moving);
+  for (std::size_t i = 0; !located_.empty() && i < tracks_.tracks().size(); ++i) {
+    if (tracks_.tracks()[i].is_moving()) moving |= located_ == static_cast<double>(i + 1);
+  }
+  add_shadow(depth, moving);
+  // A corner beside a silhouette is half of what moves, whatever its depth.
+  cv::dilate(moving, moving, cv::Mat());
+  return moving;
+}
+
+std::vector<InstanceState> DynamicFilter::states() const {
+  std::vector<InstanceState> states;
+  for (std::size_t i = 0; !located_.empty() && i < tracks_.tracks().size(); ++i) {
+    const InstanceTrack& track = tracks_.tracks()[i];
+    const cv::Rect cells = cv::boundingRect(located_ == static_cast<double>(i + 1));
+    if (cells.empty()) continue;
+    states.push_back({.id = track.id,
+                      .class_name = track.class_name,
+                      .prior = track.prior,
+                      .p_moving = track.evidence.probability(),
+                      .is_moving = track.is_moving(),
+                      .box = {cells.x * kCellSide, cells.y * kCellSide, cells.width * kCellSide,
+                              cells.height * kCellSide}});
+  }
+  return states;
+}
+
+void DynamicFilter::note_pose(const SE3& T_world_camera) {
+  past_.now().T_world_camera = T_world_camera;
+}
+
+void DynamicFilter::leave_world() {
+  past_.forget_poses();
+  tracks_.clear();
+  mask_dynamic_.release();
+}
+
+void DynamicFilter::move_world(const SE3& T_moved_world) {
+  past_.move_world(T_moved_world);
+  tracks_.move_world(T_moved_world);
+}
+
+bool DynamicFilter::was_dynamic(const Eigen::Vector3d& p_world) const {
+  const PastFrame* past = mask_seq_ ? past_.find(*mask_seq_) : nullptr;
+  if (past == nullptr || !past->T_world_camera || mask_dynamic_.empty()) return false;
+  const Eigen::Vector3d p_camera = past->T_world_camera->inverse() * p_world;
+  if (p_camera.z() < kMinDepth) return false;
+  const Eigen::Vector2d pixel = cell_camera_.project(p_camera);
+  if (!cell_camera_.contains(pixel)) return false;
+  const cv::Point nearest(cvRound(pixel.x()), cvRound(pixel.y()));
+  if (mask_dynamic_.at<std::uint8_t>(nearest) == 0) return false;
+  const double depth = past->depth.at<float>(nearest);
+  return depth > 0.0 && std::abs(depth - p_camera.z()) < kOnSurface;
 }
 
 }  // namespace tsg

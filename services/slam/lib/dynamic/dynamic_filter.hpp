@@ -2,37 +2,60 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "common/geometry/se3.hpp"
 #include "common/rgbd/instances.hpp"
 #include "common/rgbd/rgbd_frame.hpp"
+#include "services/slam/lib/dynamic/feature_motion.hpp"
+#include "services/slam/lib/dynamic/frame_verdicts.hpp"
+#include "services/slam/lib/dynamic/instance_tracks.hpp"
+#include "services/slam/lib/dynamic/past_frames.hpp"
 #include "services/slam/lib/features.hpp"
+#include "services/slam/lib/observation_model.hpp"
 #include "services/slam/lib/slam_config.hpp"
 
 namespace tsg {
 
-/// Says which pixels of a frame show something that moves, from the latest instance mask. A mask of
-/// an earlier frame is carried forward: each dynamic instance is moved with the camera, and with
-/// its own velocity between masks, and from there grown over what the depth image shows to be
-/// connected to it, as far as it can have moved since. So background next to it is kept.
-/// Works on images of a quarter of the size. Owned by the tracking thread.
+/// Which features of a frame move.
+struct Judgement {
+  std::vector<bool> is_dynamic;          ///< per feature; empty: none is
+  std::vector<float> epipolar_px;        ///< per feature, negative where untested; empty: no test
+  cv::Mat dynamic_cells;                 ///< CV_8UC1 of cells, 255 = moves; empty: none does
+  std::vector<InstanceState> instances;  ///< all that may move
+};
+
+/// Tells what moves in a frame, by the method that the configuration names. In two steps, as the
+/// paper couples them (section 4.3): what classes say comes before the pose and makes it reliable,
+/// what geometry says rests on that pose. Owned by the tracking thread.
 class DynamicFilter {
  public:
-  DynamicFilter(DynamicFilterConfig config, const CameraModel& camera);
+  DynamicFilter(const SlamConfig& config, const ObservationModel& model);
 
-  /// Verdicts for the pixels of `frame` (CV_8UC1 of its size, FeatureVerdict); empty if `mask` is
-  /// null or too old. `T_world_camera` is the predicted pose of the frame.
-  [[nodiscard]] cv::Mat judge(const RgbdFrame& frame,
-                              const InstanceSegmentation* mask,
-                              const SE3& T_world_camera);
+  /// What the latest mask says of the pixels of `frame` (CV_8UC1 of its size, FeatureVerdict);
+  /// empty where it says nothing. `mask` may be null or of an earlier frame; then what it shows is
+  /// carried on to this one. `T_world_camera` is the predicted pose.
+  [[nodiscard]] cv::Mat judge_by_class(const RgbdFrame& frame,
+                                       const InstanceSegmentation* mask,
+                                       const SE3& T_world_camera);
 
-  /// The pose of a frame that was judged, once tracking has found it.
-  void note_pose(std::uint64_t seq, const SE3& T_world_camera);
+  /// Whether features on kDynamic pixels are to be left out at once, or shall be judged as well.
+  [[nodiscard]] bool leaves_out_by_class() const;
+
+  /// The features of the frame, before any was judged by motion.
+  void note_features(const std::shared_ptr<const Features>& features) {
+    past_.now().features = features;
+  }
+
+  /// The verdict on the features of that frame, by its pose from those of static classes; null
+  /// where there is no pose.
+  [[nodiscard]] Judgement judge_by_motion(const Features& features, const SE3* T_world_camera);
+
+  /// The pose of the frame, once tracking has found it.
+  void note_pose(const SE3& T_world_camera);
 
   /// The map was moved, and what is known of past frames moves along.
   void move_world(const SE3& T_moved_world);
@@ -44,41 +67,32 @@ class DynamicFilter {
   /// where the depth or the pose of that frame is not known.
   [[nodiscard]] bool was_dynamic(const Eigen::Vector3d& p_world) const;
 
-  /// True for the one judge() call that brought a mask not seen before.
+  /// True for the one frame that brought a mask not seen before.
   [[nodiscard]] bool has_new_mask() const { return has_new_mask_; }
 
  private:
-  struct PastFrame {
-    std::uint64_t seq = 0;
-    cv::Mat small_depth;  ///< CV_32FC1, metres, a quarter of the size
-    std::optional<SE3> T_world_camera;
-  };
-  /// A dynamic instance in the frame of the latest mask.
-  struct Body {
-    std::string class_name;
-    std::vector<Eigen::Vector3d> points;                ///< world, its surface
-    Eigen::Vector3d centre;                             ///< world
-    Eigen::Vector3d v_world = Eigen::Vector3d::Zero();  ///< metres per second
-  };
-
-  void remember(const RgbdFrame& frame);
-  void take_in(const InstanceSegmentation& mask);
-  void measure_bodies(const InstanceSegmentation& mask, const PastFrame& past);
-  void estimate_velocities(const std::vector<Body>& before, double seconds);
-  [[nodiscard]] cv::Mat carry_forward(const RgbdFrame& frame, const SE3& T_world_camera) const;
-  void mark_body(const Body& body, double age_s, const SE3& T_camera_world, cv::Mat& marked) const;
-  [[nodiscard]] const PastFrame* find_past(std::uint64_t seq) const;
+  [[nodiscard]] bool take_in(const InstanceSegmentation& mask, const SE3& T_world_camera);
+  [[nodiscard]] cv::Mat by_place(const InstanceSegmentation& mask, const cv::Size& size) const;
+  [[nodiscard]] Judgement judge_by_epipolar(const Features& features) const;
+  [[nodiscard]] Judgement judge_by_depth(const Features& features, const SE3& T_world_camera);
+  [[nodiscard]] cv::Mat compare_with_past(const SE3& T_world_camera) const;
+  [[nodiscard]] std::vector<FeatureMotion> compare_with_reference(const Features& features,
+                                                                  const SE3& T_world_camera) const;
+  void weigh_tracks(const Features& features,
+                    const std::vector<FeatureMotion>& motion,
+                    const cv::Mat& evidence);
+  [[nodiscard]] cv::Mat moving_cells(const cv::Mat& evidence) const;
+  [[nodiscard]] std::vector<InstanceState> states() const;
 
   DynamicFilterConfig config_;
-  CameraModel camera_;
-  CameraModel small_camera_;  ///< of the images of a quarter of the size
-  std::deque<PastFrame> past_;
+  const ObservationModel& model_;
+  CameraModel cell_camera_;
+  PastFrames past_;
+  InstanceTracks tracks_;
+  cv::Mat located_;  ///< of the frame being judged: CV_8UC1 of cells, i + 1 for tracks()[i]
   std::optional<std::uint64_t> mask_seq_;
-  std::int64_t mask_stamp_ns_ = 0;
+  cv::Mat mask_dynamic_;  ///< CV_8UC1 of cells, of the latest mask: 255 on dynamic classes
   bool has_new_mask_ = false;
-  cv::Mat small_dynamic_;  ///< CV_8UC1, of the latest mask: 255 on dynamic instances
-  bool placed_ = false;    ///< the latest mask's frame has depth and pose: bodies_ are measured
-  std::vector<Body> bodies_;
 };
 
 }  // namespace tsg

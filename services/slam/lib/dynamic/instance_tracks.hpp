@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <deque>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "common/geometry/camera_model.hpp"
+#include "common/geometry/se3.hpp"
+#include "common/rgbd/instances.hpp"
+#include "services/slam/lib/dynamic/motion_evidence.hpp"
+#include "services/slam/lib/dynamic/past_frames.hpp"
+#include "services/slam/lib/slam_config.hpp"
+
+namespace tsg {
+
+/// A thing that may move, followed from mask to mask.
+struct InstanceTrack {
+  int id = 0;
+  std::string class_name;
+  FeatureVerdict prior = FeatureVerdict::kPotentiallyDynamic;
+  MotionEvidence evidence;
+  std::vector<Eigen::Vector3d> points;                ///< world, its surface at `stamp_ns`
+  Eigen::Vector3d v_world = Eigen::Vector3d::Zero();  ///< metres per second
+  std::int64_t stamp_ns = 0;                          ///< of the last mask that showed it
+  int missed_masks = 0;                               ///< since then
+  struct Place {
+    std::int64_t stamp_ns = 0;
+    Eigen::Vector3d centre;  ///< world
+  };
+  std::deque<Place> trail;  ///< of the last half second, oldest first
+
+  [[nodiscard]] bool is_moving() const {
+    return prior == FeatureVerdict::kDynamic || evidence.is_moving();
+  }
+};
+
+/// Follows the instances of dynamic and potentially dynamic classes. Between masks, and where a
+/// mask fails to show one, each is carried on with its velocity and laid onto what the depth image
+/// shows there, so that background beside it is kept.
+class InstanceTracks {
+ public:
+  InstanceTracks(const DynamicFilterConfig& config, const CameraModel& cell_camera);
+
+  /// Takes in a mask with what is remembered of its frame, taken from `T_world_camera`.
+  void take_in(const InstanceSegmentation& mask, const PastFrame& frame, const SE3& T_world_camera);
+
+  /// Where each is in a frame: CV_8UC1 of cells, i + 1 for tracks()[i], 0 elsewhere. `mask` is the
+  /// one last taken in where it belongs to this very frame, else null.
+  [[nodiscard]] cv::Mat locate(const PastFrame& frame,
+                               const SE3& T_world_camera,
+                               const InstanceSegmentation* mask) const;
+
+  [[nodiscard]] const std::vector<InstanceTrack>& tracks() const { return tracks_; }
+  /// Adds what a frame says of tracks()[i].
+  void add_evidence(std::size_t i, const MotionCounts& counts) { tracks_[i].evidence.add(counts); }
+
+  void move_world(const SE3& T_moved_world);
+  void clear() { tracks_.clear(); }
+  /// Drops those that no mask has shown for too long.
+  void forget_before(std::int64_t stamp_ns);
+
+ private:
+  [[nodiscard]] std::vector<InstanceTrack> measure(const InstanceSegmentation& mask,
+                                                   const PastFrame& frame,
+                                                   const SE3& T_world_camera) const;
+  [[nodiscard]] int find_same(const InstanceTrack& seen, const std::vector<bool>& taken) const;
+  void follow(InstanceTrack& track, InstanceTrack seen) const;
+  void drop_lost(const PastFrame& frame, const SE3& T_world_camera);
+  [[nodiscard]] double support(const InstanceTrack& track,
+                               const PastFrame& frame,
+                               const SE3& T_camera_world) const;
+  /// Calls `visit(cell, depth_m)` for each point in view, moved on to the time of `stamp_ns`.
+  template <typename Visit>
+  void for_each_cell(const InstanceTrack& track,
+                     std::int64_t stamp_ns,
+                     const SE3& T_camera_world,
+                     const Visit& visit) const;
+  void mark_exact(const InstanceSegmentation& mask, const cv::Mat& depth, cv::Mat& located) const;
+  void mark_carried(std::size_t i,
+                    const PastFrame& frame,
+                    const SE3& T_camera_world,
+                    cv::Mat& located) const;
+
+  DynamicFilterConfig config_;
+  CameraModel camera_;  ///< of cells
+  std::vector<InstanceTrack> tracks_;
+  std::vector<int> track_of_label_;  ///< of the latest mask: index in tracks_, or -1
+  int next_id_ = 1;
+};
+
+}  // namespace tsg

@@ -1,0 +1,98 @@
+#include "services/slam/lib/dynamic/seen_through.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace tsg {
+namespace {
+
+constexpr float kMinDepth = 0.1F;        // metres
+constexpr double kSigmas = 4.0;          // of the difference of two measurements
+constexpr double kPoseError = 0.02;      // metres: along the ray, of pose and calibration together
+constexpr double kRelativeError = 0.01;  // of depth: the sensor's bias, and slopes within a cell
+
+/// Inverse depth may be off by this much, 1/m.
+float tolerance(double sigma, float inverse_depth) {
+  const double noise = kSigmas * std::sqrt(2.0) * sigma;
+  return static_cast<float>(noise + kPoseError * inverse_depth * inverse_depth +
+                            kRelativeError * inverse_depth);
+}
+
+/// Whether all that was seen around a cell lay behind `inverse_depth`: at silhouettes a pose that
+/// is off by a little would show one surface through the other.
+bool lay_behind(const cv::Mat& depth, int column, int row, float inverse_depth, float allowed) {
+  for (int y = row - 1; y <= row + 1; ++y) {
+    const auto* line = depth.ptr<float>(y);
+    for (int x = column - 1; x <= column + 1; ++x) {
+      if (line[x] > 0.0F && inverse_depth - 1.0F / line[x] <= allowed) return false;
+    }
+  }
+  return true;
+}
+
+CellEvidence judge(
+    const cv::Mat& then, const Eigen::Vector3f& p_then, int column, int row, double sigma) {
+  const float seen = then.at<float>(row, column);
+  if (seen <= 0.0F) return CellEvidence::kNone;
+  const float inverse_depth = 1.0F / p_then.z();
+  const float allowed = tolerance(sigma, inverse_depth);
+  const float nearer_by = inverse_depth - 1.0F / seen;
+  if (nearer_by < -allowed) return CellEvidence::kNone;
+  if (nearer_by <= allowed) return CellEvidence::kSame;
+  return lay_behind(then, column, row, inverse_depth, allowed) ? CellEvidence::kAppeared
+                                                               : CellEvidence::kNone;
+}
+
+}  // namespace
+
+void compare_depth(const CameraModel& camera,
+                   const DepthView& now,
+                   const DepthView& then,
+                   double sigma,
+                   cv::Mat& evidence) {
+  const SE3 T_then_now = then.T_world_camera.inverse() * now.T_world_camera;
+  const Eigen::Matrix3f R = T_then_now.rotation_matrix().cast<float>();
+  const Eigen::Vector3f t = T_then_now.translation().cast<float>();
+  const Eigen::Vector2f focal(static_cast<float>(camera.fx), static_cast<float>(camera.fy));
+  const Eigen::Vector2f centre(static_cast<float>(camera.cx), static_cast<float>(camera.cy));
+  for (int y = 0; y < now.depth.rows; ++y) {
+    const auto* depths = now.depth.ptr<float>(y);
+    auto* found = evidence.ptr<std::uint8_t>(y);
+    for (int x = 0; x < now.depth.cols; ++x) {
+      if (depths[x] < kMinDepth) continue;
+      const Eigen::Vector3f ray((static_cast<float>(x) - centre.x()) / focal.x(),
+                                (static_cast<float>(y) - centre.y()) / focal.y(), 1.0F);
+      const Eigen::Vector3f p_then = R * (depths[x] * ray) + t;
+      if (p_then.z() < kMinDepth) continue;
+      const int column = cvRound(focal.x() * p_then.x() / p_then.z() + centre.x());
+      const int row = cvRound(focal.y() * p_then.y() / p_then.z() + centre.y());
+      if (column < 1 || row < 1 || column + 1 >= now.depth.cols || row + 1 >= now.depth.rows) {
+        continue;
+      }
+      const auto says = static_cast<std::uint8_t>(judge(then.depth, p_then, column, row, sigma));
+      found[x] = std::max(found[x], says);
+    }
+  }
+}
+
+cv::Mat appeared_regions(const cv::Mat& evidence, int min_cells) {
+  const cv::Mat appeared = evidence == static_cast<double>(CellEvidence::kAppeared);
+  cv::Mat labels;
+  cv::Mat stats;
+  cv::Mat centroids;
+  const int count = cv::connectedComponentsWithStats(appeared, labels, stats, centroids, 8, CV_32S);
+  cv::Mat kept = cv::Mat::zeros(evidence.size(), CV_8UC1);
+  for (int y = 0; y < labels.rows; ++y) {
+    const auto* label = labels.ptr<int>(y);
+    auto* row = kept.ptr<std::uint8_t>(y);
+    for (int x = 0; x < labels.cols; ++x) {
+      const bool is_big = label[x] > 0 && stats.at<int>(label[x], cv::CC_STAT_AREA) >= min_cells;
+      row[x] = is_big ? 255 : 0;
+    }
+  }
+  CV_Assert(count >= 1);
+  return kept;
+}
+
+}  // namespace tsg
