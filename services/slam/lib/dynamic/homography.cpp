@@ -1,0 +1,67 @@
+#include "services/slam/lib/dynamic/homography.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <limits>
+
+namespace tsg {
+namespace {
+
+constexpr double kMinSingularRatio = 1e-9;  // below it a second solution fits as well
+
+double distance_of(const Eigen::Matrix3d& H, const PixelPair& pair) {
+  return transfer_distance(H, pair.p1, pair.p2);
+}
+
+/// Two equations for each pair, and a row of zeros so that four pairs give all of V.
+Eigen::Matrix<double, Eigen::Dynamic, 9> equations(std::span<const PixelPair> pairs,
+                                                   const Normalisation& to_normalised) {
+  Eigen::Matrix<double, Eigen::Dynamic, 9> A;
+  A.setZero(static_cast<Eigen::Index>(2 * pairs.size() + 1), 9);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Eigen::Vector3d p1 = to_normalised.N1 * pairs[i].p1.homogeneous();
+    const Eigen::Vector3d p2 = to_normalised.N2 * pairs[i].p2.homogeneous();
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    A.row(row).head<3>() = p1;
+    A.row(row).tail<3>() = -p2.x() * p1;
+    A.row(row + 1).segment<3>(3) = p1;
+    A.row(row + 1).tail<3>() = -p2.y() * p1;
+  }
+  return A;
+}
+
+}  // namespace
+
+std::optional<Eigen::Matrix3d> fit_homography(std::span<const PixelPair> pairs) {
+  if (pairs.size() < kMinHomographyPairs) return std::nullopt;
+  const Normalisation to_normalised(pairs);
+  const auto A = equations(pairs, to_normalised);
+  if (!A.allFinite()) return std::nullopt;
+  const Eigen::JacobiSVD<Eigen::Matrix<double, Eigen::Dynamic, 9>> svd(A, Eigen::ComputeThinV);
+  if (svd.singularValues()[7] < kMinSingularRatio * svd.singularValues()[0]) return std::nullopt;
+  const Eigen::Matrix<double, 9, 1> h = svd.matrixV().col(8);
+  Eigen::Matrix3d H;
+  H << h.head<3>().transpose(), h.segment<3>(3).transpose(), h.tail<3>().transpose();
+  H = to_normalised.N2.inverse() * H * to_normalised.N1;
+  // The sign that puts the pixels in front of the second camera.
+  const double side = (H * pairs.front().p1.homogeneous()).z();
+  return (side < 0.0 ? -H : H).normalized();
+}
+
+double transfer_distance(const Eigen::Matrix3d& H,
+                         const Eigen::Vector2d& p1,
+                         const Eigen::Vector2d& p2) {
+  const Eigen::Vector3d moved = H * p1.homogeneous();
+  if (moved.z() <= 0.0) return std::numeric_limits<double>::infinity();
+  return (moved.hnormalized() - p2).norm();
+}
+
+std::optional<Consensus> estimate_homography(std::span<const PixelPair> pairs,
+                                             const ConsensusLimits& limits) {
+  constexpr PairModel kModel{
+      .sample = kMinHomographyPairs, .fit = fit_homography, .distance = distance_of};
+  return find_consensus(kModel, pairs, limits);
+}
+
+}  // namespace tsg
