@@ -6,17 +6,14 @@
 #include <cmath>
 #include <limits>
 
+#include "services/slam/lib/dynamic/null_vector.hpp"
+
 namespace tsg {
 namespace {
 
-// Of the singular values of eq. 4; below it a second solution fits as well as the numbers tell.
-constexpr double kMinSingularRatio = 1e-9;
-
-/// Rows of eq. 4, at least nine of them so that the decomposition has all of V.
-Eigen::Matrix<double, Eigen::Dynamic, 9> equations(std::span<const PixelPair> pairs,
-                                                   const Normalisation& to_normalised) {
-  Eigen::Matrix<double, Eigen::Dynamic, 9> A;
-  A.setZero(static_cast<Eigen::Index>(std::max<std::size_t>(pairs.size(), 9)), 9);
+/// Eq. 4, a row for each pair.
+NineColumns equations(std::span<const PixelPair> pairs, const Normalisation& to_normalised) {
+  NineColumns A(static_cast<Eigen::Index>(pairs.size()), 9);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Eigen::Vector3d p1 = to_normalised.N1 * pairs[i].p1.homogeneous();
     const Eigen::Vector3d p2 = to_normalised.N2 * pairs[i].p2.homogeneous();
@@ -46,14 +43,10 @@ double distance_in_both(const Eigen::Matrix3d& F, const PixelPair& pair) {
 std::optional<Eigen::Matrix3d> eight_point(std::span<const PixelPair> pairs) {
   if (pairs.size() < kMinFundamentalPairs) return std::nullopt;
   const Normalisation to_normalised(pairs);
-  const auto A = equations(pairs, to_normalised);
-  if (!A.allFinite()) return std::nullopt;
-  const Eigen::JacobiSVD<Eigen::Matrix<double, Eigen::Dynamic, 9>> svd(A, Eigen::ComputeThinV);
-  if (svd.singularValues()[7] < kMinSingularRatio * svd.singularValues()[0]) return std::nullopt;
-  const Eigen::Matrix<double, 9, 1> f = svd.matrixV().col(8);
-  Eigen::Matrix3d F;
-  F << f.head<3>().transpose(), f.segment<3>(3).transpose(), f.tail<3>().transpose();
-  F = to_normalised.N2.transpose() * nearest_of_rank_2(F) * to_normalised.N1;
+  const auto F_normalised = null_vector(equations(pairs, to_normalised));
+  if (!F_normalised) return std::nullopt;
+  const Eigen::Matrix3d F =
+      to_normalised.N2.transpose() * nearest_of_rank_2(*F_normalised) * to_normalised.N1;
   return F.normalized();
 }
 

@@ -2,23 +2,20 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <limits>
+
+#include "services/slam/lib/dynamic/null_vector.hpp"
 
 namespace tsg {
 namespace {
-
-constexpr double kMinSingularRatio = 1e-9;  // below it a second solution fits as well
 
 double distance_of(const Eigen::Matrix3d& H, const PixelPair& pair) {
   return transfer_distance(H, pair.p1, pair.p2);
 }
 
-/// Two equations for each pair, and a row of zeros so that four pairs give all of V.
-Eigen::Matrix<double, Eigen::Dynamic, 9> equations(std::span<const PixelPair> pairs,
-                                                   const Normalisation& to_normalised) {
-  Eigen::Matrix<double, Eigen::Dynamic, 9> A;
-  A.setZero(static_cast<Eigen::Index>(2 * pairs.size() + 1), 9);
+/// Two rows for each pair.
+NineColumns equations(std::span<const PixelPair> pairs, const Normalisation& to_normalised) {
+  NineColumns A = NineColumns::Zero(static_cast<Eigen::Index>(2 * pairs.size()), 9);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Eigen::Vector3d p1 = to_normalised.N1 * pairs[i].p1.homogeneous();
     const Eigen::Vector3d p2 = to_normalised.N2 * pairs[i].p2.homogeneous();
@@ -36,14 +33,9 @@ Eigen::Matrix<double, Eigen::Dynamic, 9> equations(std::span<const PixelPair> pa
 std::optional<Eigen::Matrix3d> fit_homography(std::span<const PixelPair> pairs) {
   if (pairs.size() < kMinHomographyPairs) return std::nullopt;
   const Normalisation to_normalised(pairs);
-  const auto A = equations(pairs, to_normalised);
-  if (!A.allFinite()) return std::nullopt;
-  const Eigen::JacobiSVD<Eigen::Matrix<double, Eigen::Dynamic, 9>> svd(A, Eigen::ComputeThinV);
-  if (svd.singularValues()[7] < kMinSingularRatio * svd.singularValues()[0]) return std::nullopt;
-  const Eigen::Matrix<double, 9, 1> h = svd.matrixV().col(8);
-  Eigen::Matrix3d H;
-  H << h.head<3>().transpose(), h.segment<3>(3).transpose(), h.tail<3>().transpose();
-  H = to_normalised.N2.inverse() * H * to_normalised.N1;
+  const auto H_normalised = null_vector(equations(pairs, to_normalised));
+  if (!H_normalised) return std::nullopt;
+  const Eigen::Matrix3d H = to_normalised.N2.inverse() * *H_normalised * to_normalised.N1;
   // The sign that puts the pixels in front of the second camera.
   const double side = (H * pairs.front().p1.homogeneous()).z();
   return (side < 0.0 ? -H : H).normalized();

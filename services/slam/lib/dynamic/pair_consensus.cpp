@@ -28,9 +28,9 @@ class Search {
       draw();
       const auto found = model_.fit(sample_);
       if (!found) continue;
-      Scored scored = score(*found);
-      if (scored.cost >= best_.cost) continue;
-      best_ = refined(std::move(scored));
+      const double cost = cost_below(best_.cost, *found);
+      if (cost >= best_.cost) continue;
+      best_ = refined({.consensus = consensus_on(*found), .cost = cost});
       samples = std::min(limits_.max_samples, samples_needed());
     }
     if (best_.consensus.agrees.empty()) return std::nullopt;
@@ -50,18 +50,28 @@ class Search {
     }
   }
 
-  [[nodiscard]] Scored score(const Eigen::Matrix3d& relation) const {
-    Scored scored{.consensus = {.model = relation, .agrees = {}}, .cost = 0.0};
-    scored.consensus.agrees.reserve(pairs_.size());
+  /// Sum of the squared distances, cut off at the limit; stops early once it reaches `enough`.
+  [[nodiscard]] double cost_below(double enough, const Eigen::Matrix3d& relation) const {
+    double cost = 0.0;
     for (const PixelPair& pair : pairs_) {
       const double distance = model_.distance(relation, pair);
-      const bool agrees = distance <= limits_.max_distance_px;
-      scored.consensus.agrees.push_back(agrees);
-      scored.consensus.count += agrees ? 1 : 0;
-      const double counted = agrees ? distance : limits_.max_distance_px;
-      scored.cost += counted * counted;
+      const double counted =
+          distance <= limits_.max_distance_px ? distance : limits_.max_distance_px;
+      cost += counted * counted;
+      if (cost >= enough) break;
     }
-    return scored;
+    return cost;
+  }
+
+  [[nodiscard]] Consensus consensus_on(const Eigen::Matrix3d& relation) const {
+    Consensus consensus{.model = relation, .agrees = {}};
+    consensus.agrees.reserve(pairs_.size());
+    for (const PixelPair& pair : pairs_) {
+      const bool agrees = model_.distance(relation, pair) <= limits_.max_distance_px;
+      consensus.agrees.push_back(agrees);
+      consensus.count += agrees ? 1 : 0;
+    }
+    return consensus;
   }
 
   /// Fitted to all pairs that agree with it, for as long as that explains more.
@@ -75,9 +85,9 @@ class Search {
       if (agreeing.size() < model_.sample) break;
       const auto refit = model_.fit(agreeing);
       if (!refit) break;
-      Scored next = score(*refit);
-      if (next.cost >= scored.cost) break;
-      scored = std::move(next);
+      const double cost = cost_below(scored.cost, *refit);
+      if (cost >= scored.cost) break;
+      scored = {.consensus = consensus_on(*refit), .cost = cost};
     }
     return scored;
   }

@@ -14,6 +14,9 @@ namespace {
 constexpr double kQuantile1 = 1.960;
 constexpr double kQuantile2 = 2.448;
 
+// It matters only where it explains most pairs: with 60 % of them it is found with 0.9997.
+constexpr int kHomographySamples = 60;
+
 // Torr 1998: a pair has four coordinates; its cost stops growing where it is surely wrong.
 constexpr double kDataDimension = 4.0;
 constexpr double kOutlierCost = 2.0;  // times the dimensions that the relation takes away
@@ -61,7 +64,8 @@ std::optional<TwoViews> estimate_two_views(std::span<const PixelPair> pairs,
                                            double max_distance_px) {
   if (pairs.size() < kMinFundamentalPairs) return std::nullopt;
   const double sigma_px = max_distance_px / kQuantile1;
-  const auto homography = estimate_homography(pairs, {.max_distance_px = sigma_px * kQuantile2});
+  const auto homography = estimate_homography(
+      pairs, {.max_distance_px = sigma_px * kQuantile2, .max_samples = kHomographySamples});
   std::optional<TwoViews> best;
   double cost = std::numeric_limits<double>::infinity();
   if (homography) {
