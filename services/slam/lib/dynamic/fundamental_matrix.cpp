@@ -13,14 +13,14 @@ namespace {
 
 /// Eq. 4, a row for each pair.
 NineColumns equations(std::span<const PixelPair> pairs, const Normalisation& to_normalised) {
-  NineColumns A(static_cast<Eigen::Index>(pairs.size()), 9);
+  NineColumns rows(static_cast<Eigen::Index>(pairs.size()), 9);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Eigen::Vector3d p1 = to_normalised.N1 * pairs[i].p1.homogeneous();
     const Eigen::Vector3d p2 = to_normalised.N2 * pairs[i].p2.homogeneous();
-    A.row(static_cast<Eigen::Index>(i)) << p2.x() * p1.transpose(), p2.y() * p1.transpose(),
+    rows.row(static_cast<Eigen::Index>(i)) << p2.x() * p1.transpose(), p2.y() * p1.transpose(),
         p1.transpose();
   }
-  return A;
+  return rows;
 }
 
 Eigen::Matrix3d nearest_of_rank_2(const Eigen::Matrix3d& F) {

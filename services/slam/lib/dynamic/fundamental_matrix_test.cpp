@@ -22,7 +22,7 @@ Eigen::Matrix3d true_fundamental(const SE3& T_world_current) {
   Eigen::Matrix3d K;
   K << model.fx, 0.0, model.cx, 0.0, model.fy, model.cy, 0.0, 0.0, 1.0;
   const SE3 T_current_world = T_world_current.inverse();
-  const Eigen::Vector3d t = T_current_world.translation();
+  const Eigen::Vector3d& t = T_current_world.translation();
   Eigen::Matrix3d cross;
   cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
   const Eigen::Matrix3d F =

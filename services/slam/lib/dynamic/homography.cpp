@@ -15,17 +15,17 @@ double distance_of(const Eigen::Matrix3d& H, const PixelPair& pair) {
 
 /// Two rows for each pair.
 NineColumns equations(std::span<const PixelPair> pairs, const Normalisation& to_normalised) {
-  NineColumns A = NineColumns::Zero(static_cast<Eigen::Index>(2 * pairs.size()), 9);
+  NineColumns rows = NineColumns::Zero(static_cast<Eigen::Index>(2 * pairs.size()), 9);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Eigen::Vector3d p1 = to_normalised.N1 * pairs[i].p1.homogeneous();
     const Eigen::Vector3d p2 = to_normalised.N2 * pairs[i].p2.homogeneous();
     const auto row = static_cast<Eigen::Index>(2 * i);
-    A.row(row).head<3>() = p1;
-    A.row(row).tail<3>() = -p2.x() * p1;
-    A.row(row + 1).segment<3>(3) = p1;
-    A.row(row + 1).tail<3>() = -p2.y() * p1;
+    rows.row(row).head<3>() = p1;
+    rows.row(row).tail<3>() = -p2.x() * p1;
+    rows.row(row + 1).segment<3>(3) = p1;
+    rows.row(row + 1).tail<3>() = -p2.y() * p1;
   }
-  return A;
+  return rows;
 }
 
 }  // namespace

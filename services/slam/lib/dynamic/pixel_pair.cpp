@@ -7,10 +7,10 @@ namespace {
 
 Eigen::Matrix3d similarity(const Eigen::Vector2d& centroid, double mean_distance) {
   const double scale = std::numbers::sqrt2 / mean_distance;
-  Eigen::Matrix3d N = Eigen::Matrix3d::Identity();
-  N.topLeftCorner<2, 2>() *= scale;
-  N.topRightCorner<2, 1>() = -scale * centroid;
-  return N;
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  K.topLeftCorner<2, 2>() *= scale;
+  K.topRightCorner<2, 1>() = -scale * centroid;
+  return K;
 }
 
 }  // namespace
