@@ -10,7 +10,7 @@
 #include "common/core/time.hpp"
 #include "services/slam/lib/dynamic/class_policy.hpp"
 #include "services/slam/lib/dynamic/depth_cells.hpp"
-// EPI#include "services/slam/lib/dynamic/epipolar_coupling.hpp"
+#include "services/slam/lib/dynamic/epipolar_coupling.hpp"
 #include "services/slam/lib/dynamic/seen_through.hpp"
 
 namespace tsg {
@@ -147,8 +147,12 @@ Judgement DynamicFilter::judge_by_motion(const Features& features, const SE3* T_
 Judgement DynamicFilter::judge_by_epipolar(const Features& features) const {
   const PastFrame* previous = past_.before(1);
   if (previous == nullptr || previous->features == nullptr) return {};
-  (void)features;
-  return {};
+  CouplingVerdicts verdicts =
+      judge_by_epipolar_lines(*previous->features, features, config_.method, {});
+  return {.is_dynamic = std::move(verdicts.is_dynamic),
+          .epipolar_px = std::move(verdicts.epipolar_px),
+          .dynamic_cells = {},
+          .instances = {}};
 }
 Judgement DynamicFilter::judge_by_depth(const Features& features, const SE3& T_world_camera) {
   const cv::Mat evidence = compare_with_past(T_world_camera);
