@@ -157,6 +157,13 @@ Expected<InstanceTruth> InstanceTruth::open(const fs::path& folder) {
 
 Expected<InstanceSegmentation> InstanceTruth::at(std::int64_t stamp_ns,
                                                  std::int64_t max_difference_ns) const {
+  auto mask = mask_at(stamp_ns, max_difference_ns);
+  if (!mask) return tl::unexpected(mask.error());
+  return std::move(mask->segmentation);
+}
+
+Expected<TrueMask> InstanceTruth::mask_at(std::int64_t stamp_ns,
+                                          std::int64_t max_difference_ns) const {
   const ListedImage& mask = closest(masks_, stamp_ns);
   if (std::abs(mask.stamp_ns - stamp_ns) > max_difference_ns) {
     return make_error(ExitCode::kMissingInput,
@@ -169,15 +176,16 @@ Expected<InstanceSegmentation> InstanceTruth::at(std::int64_t stamp_ns,
   const auto ids = file->decode_ids();
   if (!ids) return tl::unexpected(ids.error());
   const std::vector<Region> regions = find_regions(*ids, instances_);
-  InstanceSegmentation segmentation;
-  segmentation.stamp_ns = stamp_ns;
-  segmentation.labels = make_labels(*ids, regions);
+  TrueMask result;
+  result.segmentation.stamp_ns = stamp_ns;
+  result.segmentation.labels = make_labels(*ids, regions);
   for (const Region& region : regions) {
     const KnownInstance& known = instances_.at(region.id);
-    segmentation.instances.push_back(
+    result.ids.push_back(region.id);
+    result.segmentation.instances.push_back(
         {known.class_name, 1.0F, region.box(), motion_at(known, mask.stamp_ns)});
   }
-  return segmentation;
+  return result;
 }
 
 }  // namespace tsg

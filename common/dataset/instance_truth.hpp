@@ -21,6 +21,12 @@ struct KnownInstance {
   std::map<std::int64_t, bool> moving;  ///< whether it moves, by stamp; for dynamic ones
 };
 
+/// The instances in view at one moment, each with its id in instances.json.
+struct TrueMask {
+  InstanceSegmentation segmentation;
+  std::vector<int> ids;  ///< of segmentation.instances, one by one
+};
+
 /// True instance masks of a rendered sequence: mask/STAMP.png holds ids (0 = background), and
 /// instances.json tells what they are.
 class InstanceTruth {
@@ -35,6 +41,10 @@ class InstanceTruth {
   /// within `max_difference_ns`. Ids that instances.json does not know count as background; of
   /// more than kMaxInstances the biggest stay. Memory of labels is the caller's.
   [[nodiscard]] Expected<InstanceSegmentation> at(
+      std::int64_t stamp_ns, std::int64_t max_difference_ns = kDefaultMaxDifferenceNs) const;
+
+  /// The same, telling which is which from frame to frame.
+  [[nodiscard]] Expected<TrueMask> mask_at(
       std::int64_t stamp_ns, std::int64_t max_difference_ns = kDefaultMaxDifferenceNs) const;
 
  private:

@@ -67,6 +67,15 @@ TEST_F(InstanceTruths, InstancesComeWithClassBoxLabelsAndMotion) {
   EXPECT_EQ(cv::countNonZero(segmentation->labels), 20 * 8 + 4 * 6);
 }
 
+TEST_F(InstanceTruths, TellsTheIdsOfTheInstances) {
+  const auto truth = InstanceTruth::open(folder_.path());
+  ASSERT_TRUE(truth) << truth.error().message;
+  const auto mask = truth->mask_at(1'033'333'000);
+  ASSERT_TRUE(mask) << mask.error().message;
+  EXPECT_EQ(mask->ids, (std::vector<int>{17, 205}));
+  EXPECT_EQ(mask->segmentation.instances[1].class_name, "chair");
+}
+
 TEST_F(InstanceTruths, ADynamicObjectIsStaticWhileItStands) {
   const auto segmentation = InstanceTruth::open(folder_.path())->at(1'000'000'000);
   ASSERT_TRUE(segmentation);
