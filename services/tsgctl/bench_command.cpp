@@ -7,15 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "common/app/config_file.hpp"
-#include "common/app/mask_faults_file.hpp"
 #include "common/core/atomic_file.hpp"
 #include "common/core/time.hpp"
 #include "common/dataset/trajectory.hpp"
-#include "services/slam/config.hpp"
 #include "services/tsgctl/bench/bench_slam.hpp"
 #include "services/tsgctl/bench/scale_plot.hpp"
 #include "services/tsgctl/run/progress.hpp"
+#include "services/tsgctl/slam_options.hpp"
 
 namespace tsg {
 namespace {
@@ -30,45 +28,19 @@ Examples:
   tsgctl bench slam data/static_room --json --series frames.csv --out trajectory.txt
   tsgctl bench slam data/walking_xyz --no-masks --set slam.features.max_features=800
   tsgctl bench slam data/walking_xyz --mask-fault late_frames=6 --mask-fault shrink_px=10
+  tsgctl bench slam data/walking_xyz --method tsg
   tsgctl bench slam data/scale_round --laps 20 --plot scale.png
 Ends with 0 when the sequence was run to its end; other codes: docs/exit-codes.md.)";
 
 struct BenchArguments {
   BenchOptions options;
-  std::string config;
-  std::vector<std::string> overrides;
-  std::vector<std::string> mask_faults;
-  bool no_masks = false;
+  SlamOptions slam;
+  MaskArguments masks;
   bool json = false;
   std::filesystem::path out;
   std::filesystem::path series;
   std::filesystem::path plot;
 };
-
-SlamConfig read_config(const BenchArguments& arguments) {
-  for (const std::string& setting : arguments.overrides) {
-    if (setting.starts_with("slam.")) continue;
-    throw FatalError(ExitCode::kUsage, "--set " + setting +
-                                           ": only slam runs here; give slam.key=value, as in "
-                                           "slam.features.max_features=800");
-  }
-  const ConfigFile file = arguments.config.empty()
-                              ? ConfigFile::from_overrides(arguments.overrides)
-                              : ConfigFile::load(arguments.config, arguments.overrides);
-  return load_slam_config(file).core;
-}
-
-MaskFaults read_mask_faults(const std::vector<std::string>& settings) {
-  const std::string section = "mask-fault";
-  std::vector<std::string> overrides;
-  for (const std::string& setting : settings) overrides.push_back(section + "." + setting);
-  const ConfigFile file = ConfigFile::from_overrides(overrides);
-  ConfigReader reader(file, section);
-  MaskFaults faults;
-  read_mask_faults(reader, "", faults);
-  reader.finish(faults.problems());
-  return faults;
-}
 
 /// Before a run that may take long: whether its results can be put where they shall go.
 void check_outputs(const BenchArguments& arguments) {
@@ -82,8 +54,8 @@ void check_outputs(const BenchArguments& arguments) {
 }
 
 void run(BenchArguments& arguments) {
-  arguments.options.run.slam = read_config(arguments);
-  arguments.options.run.masks = {!arguments.no_masks, read_mask_faults(arguments.mask_faults)};
+  arguments.options.run.slam = arguments.slam.load();
+  arguments.options.run.masks = arguments.masks.load();
   check_outputs(arguments);
   Progress progress;
   const std::int64_t start_ns = monotonic_ns();
@@ -119,12 +91,7 @@ void add_bench_command(CLI::App& app) {
       .add_option("--laps", options.run.laps, "Go through it N times; its path should be closed")
       ->type_name("N")
       ->check(CLI::Range(1, 100'000).description(""));
-  command.add_flag("--no-masks", arguments->no_masks, "Leave the sequence's true masks aside");
-  command
-      .add_option("--mask-fault", arguments->mask_faults,
-                  "A fault of the masks, as in segmentation.faults: late_frames=6; repeatable")
-      ->take_all()
-      ->type_name("KEY=VALUE");
+  add_mask_options(command, arguments->masks);
   command.add_flag("--json", arguments->json, "Write JSON instead of tables");
   command.add_option("--out", arguments->out, "Write the trajectory (TUM format)")
       ->type_name("FILE");
@@ -132,12 +99,8 @@ void add_bench_command(CLI::App& app) {
       ->type_name("FILE.csv");
   command.add_option("--plot", arguments->plot, "Draw time, memory and map size over the frames")
       ->type_name("FILE.png");
-  command.add_option("--config", arguments->config, "YAML file; without it, the defaults")
-      ->type_name("FILE");
-  command
-      .add_option("--set", arguments->overrides, "slam.key=value, wins over the file; repeatable")
-      ->take_all()
-      ->type_name("SLAM.KEY=VALUE");
+  add_method_option(command, arguments->slam.method);
+  add_slam_options(command, arguments->slam);
   command.footer(kFooter);
   command.callback([arguments] { run(*arguments); });
 }

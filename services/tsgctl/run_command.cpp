@@ -14,6 +14,7 @@
 #include "services/tsgctl/map/map_picture.hpp"
 #include "services/tsgctl/plot.hpp"
 #include "services/tsgctl/run/run_session.hpp"
+#include "services/tsgctl/slam_options.hpp"
 
 namespace tsg {
 namespace {
@@ -23,6 +24,7 @@ struct RunArguments {
   RunOptions options;
   BusOptions bus;
   std::string pace = "realtime";
+  std::string method;        ///< of --method; empty where it is not given
   std::string segmentation;  ///< empty: what the input and --model suggest
 };
 
@@ -68,6 +70,7 @@ void describe(CLI::App& command, RunArguments& arguments) {
                    "Find poses in that map, never change it");
   command.add_option("--save-map", options.save_map, "Save slam's map into this file at the end")
       ->type_name("FILE");
+  add_method_option(command, arguments.method);
   add_bus_options(command, arguments.bus);
   command.footer(kFooter);
 }
@@ -139,7 +142,7 @@ Expected<void> write_report(RunReport& report) {
 void run(RunArguments& arguments) {
   RunOptions& options = arguments.options;
   options.config = arguments.bus.config;
-  options.overrides = arguments.bus.overrides;
+  options.overrides = with_method(arguments.bus.overrides, arguments.method);
   options.pace = arguments.pace == "lockstep" ? Pace::kLockstep : Pace::kRealtime;
   options.segmentation = segmentation_of(arguments);
   throw_on_error(check_run_options(options));

@@ -68,6 +68,7 @@ BenchResult bench_slam(
   report.frames.reserve(total);
   const OfflineHooks hooks{.now_ns = thread_cpu_ns, .on_frame = [&](const OfflineFrame& frame) {
                              report.frames.push_back(measured(frame));
+                             if (options.on_frame) options.on_frame(frame);
                              on_progress(report.frames.size(), total);
                            }};
   OfflineRun run = value_or_throw(run_offline(sequence, options.run, hooks));

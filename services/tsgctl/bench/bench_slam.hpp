@@ -15,6 +15,7 @@ struct BenchOptions {
   std::filesystem::path folder;  ///< in TUM layout
   std::size_t frames = 0;        ///< the first so many of the sequence; 0: all
   OfflineOptions run = {};
+  std::function<void(const OfflineFrame&)> on_frame = {};  ///< sees each frame, off the clock
 };
 
 struct BenchResult {

@@ -23,16 +23,21 @@ std::optional<std::pair<RelativeError, std::string>> relative_error_of(const Tra
 }  // namespace
 
 std::optional<TrajectoryAccuracy> measure_accuracy(const Trajectory& truth,
-                                                   const std::filesystem::path& estimate) {
-  const auto trajectory = read_trajectory(estimate);
-  if (!trajectory) return std::nullopt;
-  const auto ate = absolute_error(truth, *trajectory);
-  const auto rpe = relative_error_of(truth, *trajectory);
+                                                   const Trajectory& estimate) {
+  const auto ate = absolute_error(truth, estimate);
+  const auto rpe = relative_error_of(truth, estimate);
   if (!ate || !rpe) return std::nullopt;
   return TrajectoryAccuracy{.ate_m = ate->translation_m,
                             .rpe_translation_m = rpe->first.translation_m,
                             .rpe_rotation_deg = rpe->first.rotation_deg,
                             .rpe_delta = rpe->second};
+}
+
+std::optional<TrajectoryAccuracy> measure_accuracy(const Trajectory& truth,
+                                                   const std::filesystem::path& estimate) {
+  const auto trajectory = read_trajectory(estimate);
+  if (!trajectory) return std::nullopt;
+  return measure_accuracy(truth, *trajectory);
 }
 
 }  // namespace tsg
