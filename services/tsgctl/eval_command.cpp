@@ -113,12 +113,13 @@ void add_rpe(CLI::App& eval, const std::shared_ptr<EvalOptions>& options) {
 
 }  // namespace
 
-void add_eval_command(CLI::App& app) {
-  CLI::App* eval = app.add_subcommand("eval", "Error of a trajectory against ground truth");
+CLI::App& add_eval_command(CLI::App& app) {
+  CLI::App* eval = app.add_subcommand("eval", "Errors against the truth: trajectories, verdicts");
   eval->require_subcommand(1);
   const auto options = std::make_shared<EvalOptions>();  // lives as long as the callbacks
   add_ate(*eval, options);
   add_rpe(*eval, options);
+  return *eval;
 }
 
 }  // namespace tsg

@@ -9,9 +9,11 @@
 #include "services/tsgctl/doctor_command.hpp"
 #include "services/tsgctl/echo_command.hpp"
 #include "services/tsgctl/eval_command.hpp"
+#include "services/tsgctl/eval_dynamic_command.hpp"
 #include "services/tsgctl/eval_tum_command.hpp"
 #include "services/tsgctl/hz_command.hpp"
 #include "services/tsgctl/map_command.hpp"
+#include "services/tsgctl/report_command.hpp"
 #include "services/tsgctl/run_command.hpp"
 #include "services/tsgctl/simulate_command.hpp"
 #include "services/tsgctl/status_command.hpp"
@@ -36,9 +38,10 @@ int main(int argc, char** argv) {
   });
   tsg::add_run_command(app);
   tsg::add_map_command(app);
-  tsg::add_eval_command(app);
+  tsg::add_eval_dynamic_command(tsg::add_eval_command(app));
   tsg::add_eval_tum_command(app);
   tsg::add_bench_command(app);
+  tsg::add_report_command(app);
   tsg::add_simulate_command(app);
   tsg::add_status_command(app);
   tsg::add_topics_command(app);

@@ -6,13 +6,18 @@
 #include <memory>
 #include <string>
 
+#include "common/app/config_file.hpp"
 #include "common/app/stop_on_signal.hpp"
 #include "common/core/atomic_file.hpp"
+#include "common/core/time.hpp"
 #include "common/dataset/evaluation.hpp"
+#include "services/slam/config.hpp"
 #include "services/tsgctl/bus_options.hpp"
+#include "services/tsgctl/dynamic/dynamic_run.hpp"
 #include "services/tsgctl/lib/run_summary.hpp"
 #include "services/tsgctl/map/map_picture.hpp"
 #include "services/tsgctl/plot.hpp"
+#include "services/tsgctl/run/progress.hpp"
 #include "services/tsgctl/run/run_session.hpp"
 #include "services/tsgctl/slam_options.hpp"
 
@@ -26,6 +31,7 @@ struct RunArguments {
   std::string pace = "realtime";
   std::string method;        ///< of --method; empty where it is not given
   std::string segmentation;  ///< empty: what the input and --model suggest
+  bool debug = false;
 };
 
 constexpr const char* kFooter = R"(
@@ -33,13 +39,16 @@ Without --segmentation: "model" where --model is given, "dataset" where the inpu
 (mask/ and instances.json), else "off".
 
 Writes trajectory.txt, trajectory_live.txt, keyframes.txt (TUM format), map.ot, map.bt, cloud.ply,
-report.json, logs/ and pictures into OUT: map.png, and trajectory.png where there is ground truth.
+report.json, logs/ and pictures into OUT: map.png, and trajectory.png where there is ground truth;
+debug/NNNNNN.png with --debug (docs/dynamic-features.md tells what they show).
 Ctrl-C stops everything and keeps what there is.
 
 Examples:
   tsgctl run --input data/walking_xyz --out out
   tsgctl run --input data/walking_xyz --out out --pace lockstep --segmentation dataset
   tsgctl run --input data/fr3_walking --out out --segmentation model --model yolov8n-seg.onnx
+  tsgctl run --input data/walking_xyz --out out --method tsg
+  tsgctl run --input data/moved_chair --out out --debug
   tsgctl run --input data/desk --out out --set slam.features.max_features=800
   tsgctl run --input data/morning --out out --save-map home.tsgmap
   tsgctl run --input data/evening --out out2 --load-map home.tsgmap --localisation-only
@@ -71,6 +80,9 @@ void describe(CLI::App& command, RunArguments& arguments) {
   command.add_option("--save-map", options.save_map, "Save slam's map into this file at the end")
       ->type_name("FILE");
   add_method_option(command, arguments.method);
+  command.add_flag("--debug", arguments.debug,
+                   "Draw what was judged of features into OUT/debug, every 10th frame; takes the "
+                   "time of another run in lockstep");
   add_bus_options(command, arguments.bus);
   command.footer(kFooter);
 }
@@ -130,6 +142,36 @@ void draw_pictures(const Sequence& sequence, const RunOptions& options, RunRepor
   }
 }
 
+void check_debug(const RunArguments& arguments) {
+  if (!arguments.debug || arguments.options.segmentation != SegmentationSource::kModel) return;
+  throw FatalError(ExitCode::kUsage,
+                   "--debug draws with the sequence's true masks or without any: use it with "
+                   "--segmentation dataset or off");
+}
+
+/// What the services judge stays with them, so the core runs once more over the sequence.
+void draw_verdicts(const RunArguments& arguments, const StopOnSignal& signals) {
+  const RunOptions& run = arguments.options;
+  DynamicOptions options;
+  options.bench.folder = run.input;
+  options.bench.run.slam =
+      load_slam_config(run.config.empty() ? ConfigFile::from_overrides(run.overrides)
+                                          : ConfigFile::load(run.config, run.overrides))
+          .core;
+  options.bench.run.masks.use = run.segmentation == SegmentationSource::kDataset;
+  options.debug.folder = run.out / "debug";
+  prepare(options.debug);
+  Progress progress;
+  progress.say("drawing what was judged into " + options.debug.folder.string());
+  const std::int64_t start_ns = monotonic_ns();
+  (void)run_dynamic(options, nullptr, [&](std::uint64_t done, std::uint64_t total) {
+    if (signals.token().stop_requested()) {
+      throw FatalError(ExitCode::kInterrupted, "stopped before all pictures were drawn");
+    }
+    progress.update({done, total, "drawing", to_seconds(monotonic_ns() - start_ns)});
+  });
+}
+
 /// Writes report.json and adds it to the files of the report, for the summary.
 Expected<void> write_report(RunReport& report) {
   const std::filesystem::path path = std::filesystem::path(report.out) / "report.json";
@@ -146,6 +188,7 @@ void run(RunArguments& arguments) {
   options.pace = arguments.pace == "lockstep" ? Pace::kLockstep : Pace::kRealtime;
   options.segmentation = segmentation_of(arguments);
   throw_on_error(check_run_options(options));
+  check_debug(arguments);
   check_map_folder(options.save_map);
   const StopOnSignal signals;
   const Sequence sequence = open_sequence(options);
@@ -157,6 +200,7 @@ void run(RunArguments& arguments) {
   // The failure that ended the run matters more than one at writing about it.
   if (outcome.failure) throw *outcome.failure;
   throw_on_error(written);
+  if (arguments.debug) draw_verdicts(arguments, signals);
 }
 
 }  // namespace
