@@ -88,7 +88,10 @@ std::vector<OpeningDescription> read_list(MapReader& root,
     const bool complete = reader.require({"at_m"});
     reader.read("at_m", opening.position_m);
     reader.read("width_m", opening.width_m, {0.3, 10.0});
-    if (key == "doors") reader.read("open_deg", opening.open_deg, {0.0, 180.0});
+    if (key == "doors") {
+      reader.read("open_deg", opening.open_deg, {0.0, 180.0});
+      reader.read("leaf", opening.has_leaf);
+    }
     reader.finish();
     const std::string what = scene.rooms.empty() ? "" : complaint(opening, scene);
     if (complete && !what.empty()) reader.add_problem("at_m", what);

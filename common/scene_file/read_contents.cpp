@@ -1,4 +1,4 @@
-// Sections objects and relocations.
+// Sections objects, relocations and moves.
 #include <numbers>
 
 #include "common/scene_file/scene_sections.hpp"
@@ -6,6 +6,7 @@
 namespace tsg {
 namespace {
 
+using simulation::MoveDescription;
 using simulation::ObjectDescription;
 using simulation::RelocationDescription;
 using simulation::SceneDescription;
@@ -43,6 +44,35 @@ void check_place(MapReader& reader,
 
 void declare(MapReader& reader, SceneContext& context, const std::string& name) {
   if (!name.empty()) context.names.declare_object(name, reader.line("name"), context.problems);
+}
+
+/// Where and when it goes.
+void read_move(MapReader& reader, MoveDescription& move) {
+  reader.read("object", move.object);
+  reader.read("from_s", move.from_s, kSeconds);
+  reader.read("to_s", move.to_s, kSeconds);
+  if (reader.has("to_m")) {
+    move.to_m = Eigen::Vector2d::Zero();
+    reader.read("to_m", *move.to_m);
+  }
+  if (reader.has("yaw_deg")) {
+    move.yaw_rad = 0.0;
+    reader.read_scaled("yaw_deg", *move.yaw_rad, kDegrees, kRadians);
+  }
+  reader.finish();
+}
+
+void check_move(MapReader& reader, const SceneDescription& scene, const MoveDescription& move) {
+  if (move.to_s <= move.from_s) reader.add_problem("to_s", "must be later than from_s");
+  if (!move.to_m && !move.yaw_rad) reader.add_problem("", "needs to_m, yaw_deg or both");
+  if (move.to_m && !is_in_a_room(scene, *move.to_m, kBeyondWall)) {
+    reader.add_problem("to_m", "is outside all rooms");
+  }
+  for (const MoveDescription& earlier : scene.moves) {
+    if (earlier.object == move.object && move.from_s < earlier.to_s) {
+      reader.add_problem("from_s", "must not be before the end of the object's move before");
+    }
+  }
 }
 
 /// All but a name that the file gives.
@@ -103,6 +133,19 @@ void read_relocations(MapReader& root, SceneContext& context, SceneDescription& 
       reader.add_problem("to_m", "is outside all rooms");
     }
     scene.relocations.push_back(std::move(relocation));
+  }
+}
+
+void read_moves(MapReader& root, SceneContext& context, SceneDescription& scene) {
+  for (const ListItem& item : root.list("moves")) {
+    MapReader reader(item.node, item.path, context.problems);
+    MoveDescription move;
+    const bool complete = reader.require({"object", "from_s", "to_s"});
+    read_move(reader, move);
+    if (!complete) continue;
+    context.names.use_object(move.object, reader.line("object"), reader.path("object"));
+    check_move(reader, scene, move);
+    scene.moves.push_back(std::move(move));
   }
 }
 

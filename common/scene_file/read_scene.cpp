@@ -38,6 +38,7 @@ SceneDescription read_scene(const YAML::Node& node, SceneContext& context) {
   read_objects(root, context, scene);
   read_people(root, context, scene);
   read_relocations(root, context, scene);
+  read_moves(root, context, scene);
   read_camera(root, context, scene);
   read_sensor(root, context, scene);
   root.finish();

@@ -104,6 +104,9 @@ TEST_F(SceneFile, ReadsObjectsWithAnglesInDegreesAndMakesUpNamesThatAreFree) {
   - {type: poster, at_m: [0, 2], height_m: 1.4}
 relocations:
   - {object: cup_1, at_s: 3, to_m: [1, 1], yaw_deg: 180}
+moves:
+  - {object: desk_1, from_s: 1, to_s: 3, to_m: [2, 3]}
+  - {object: desk_1, from_s: 3, to_s: 4.5, yaw_deg: -90}
 )");
   ASSERT_EQ(scene.objects.size(), 4U);
   EXPECT_EQ(scene.objects[0].name, "desk_2");
@@ -116,6 +119,13 @@ relocations:
   ASSERT_EQ(scene.relocations.size(), 1U);
   EXPECT_EQ(scene.relocations[0].object, "cup_1");
   EXPECT_NEAR(scene.relocations[0].to.yaw_rad, std::numbers::pi, 1e-12);
+  ASSERT_EQ(scene.moves.size(), 2U);
+  EXPECT_EQ(scene.moves[0].object, "desk_1");
+  EXPECT_EQ(scene.moves[0].to_m, Eigen::Vector2d(2, 3));
+  EXPECT_FALSE(scene.moves[0].yaw_rad.has_value());
+  EXPECT_FALSE(scene.moves[1].to_m.has_value());
+  EXPECT_NEAR(scene.moves[1].yaw_rad.value(), -std::numbers::pi / 2.0, 1e-12);
+  EXPECT_EQ(scene.moves[1].to_s, 4.5);
 }
 
 TEST_F(SceneFile, ReadsAllThatPeopleDo) {
@@ -248,7 +258,7 @@ const std::vector<Mistake> kMistakes{
      "persons: []\n",
      {"3: persons: unknown key; known: rooms name description duration_s seed doors windows "
       "objects "
-      "people relocations camera sensor"}},
+      "people relocations moves camera sensor"}},
     {"MissingKeys", "objects:\n  - {at_m: [1, 1]}\n", {"4: objects[0].type: is missing"}},
     {"KeyGivenTwice", "seed: 1\nseed: 2\n", {"4: seed: is given twice, first in line 3"}},
     {"KeyWithoutValue", "seed:\n", {"3: seed: has no value; give one or remove the line"}},
@@ -330,6 +340,17 @@ const std::vector<Mistake> kMistakes{
     {"RelocationOfNothing",
      "relocations: [{object: sofa, at_s: 1, to_m: [1, 1]}]\n",
      {"3: relocations[0].object: there is no object \"sofa\"; there is none"}},
+    {"MoveOfNothing",
+     "moves: [{object: sofa, from_s: 1, to_s: 2, yaw_deg: 3}]\n",
+     {"3: moves[0].object: there is no object \"sofa\"; there is none"}},
+    {"MovesThatCannotBe",
+     "objects: [{type: desk, name: d, at_m: [1, 1]}]\nmoves:\n"
+     "  - {object: d, from_s: 3, to_s: 3, yaw_deg: 3}\n"
+     "  - {object: d, from_s: 2, to_s: 5}\n"
+     "  - {object: d, from_s: 6, to_s: 7, to_m: [-9, 1]}\n",
+     {"5: moves[0].to_s: must be later than from_s", "6: moves[1]: needs to_m, yaw_deg or both",
+      "6: moves[1].from_s: must not be before the end of the object's move before",
+      "7: moves[2].to_m: is outside all rooms"}},
     {"HalfTheIntrinsics",
      "sensor: {fx: 500, fy: 500}\n",
      {"3: sensor: needs all of fx, fy, cx and cy, or none"}},

@@ -30,6 +30,7 @@ void read_openings(MapReader& root, SceneContext& context, simulation::SceneDesc
 void read_objects(MapReader& root, SceneContext& context, simulation::SceneDescription& scene);
 void read_people(MapReader& root, SceneContext& context, simulation::SceneDescription& scene);
 void read_relocations(MapReader& root, SceneContext& context, simulation::SceneDescription& scene);
+void read_moves(MapReader& root, SceneContext& context, simulation::SceneDescription& scene);
 void read_camera(MapReader& root, SceneContext& context, simulation::SceneDescription& scene);
 void read_sensor(MapReader& root, SceneContext& context, simulation::SceneDescription& scene);
 

@@ -26,9 +26,10 @@ TEST(ShippedScenes, AllLoadAndSayWhatTheyTest) {
     EXPECT_FALSE(scene->description.empty()) << file;
     names.insert(scene->name);
   }
-  for (const char* name : {"office_walking_xyz", "office_walking_static",
-                           "office_walking_halfsphere", "office_sitting_xyz", "moved_chair",
-                           "crowd", "corridor_loop", "dark_blackout", "scale_round", "demo"}) {
+  for (const char* name :
+       {"office_walking_xyz", "office_walking_static", "office_walking_halfsphere",
+        "office_sitting_xyz", "moved_chair", "crowd", "corridor_loop", "dark_blackout",
+        "scale_round", "demo", "pushed_chair_close", "cart", "door", "busy_office"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
 }
@@ -66,6 +67,14 @@ TEST(Manual, ShowsASceneThatLoads) {
       load_scene(folder.write("study.yaml", text.substr(begin, text.find("```", begin) - begin)));
   ASSERT_TRUE(scene) << scene.error().message;
   EXPECT_EQ(scene->people.size(), 1U);
+}
+
+TEST(Manual, NamesEveryShippedScene) {
+  const std::string text = manual();
+  const SceneLibrary library({kSource / "config/scenes"});
+  for (const auto& file : library.files()) {
+    EXPECT_NE(text.find("| `" + file.stem().string() + "` |"), std::string::npos) << file;
+  }
 }
 
 TEST(Manual, NamesEveryTypeAndSurface) {

@@ -40,6 +40,7 @@ struct OpeningDescription {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   double width_m = 0.9;
   double open_deg = 90.0;  ///< doors: how far the leaf stands open
+  bool has_leaf = true;    ///< doors: else a mere passage, or its leaf is an object that moves
 };
 
 /// A piece of furniture or a thing on it.
@@ -84,6 +85,16 @@ struct RelocationDescription {
   std::string object{};
   double at_s = 0.0;
   FloorPose to{};
+};
+
+/// Something that goes to another place by itself, in a straight line and turning evenly, starting
+/// and stopping gently: a door, a curtain, a sliding board.
+struct MoveDescription {
+  std::string object{};
+  double from_s = 0.0;
+  double to_s = 0.0;
+  std::optional<Eigen::Vector2d> to_m{};  ///< absent: stays where it is
+  std::optional<double> yaw_rad{};        ///< absent: keeps its yaw
 };
 
 /// A camera pose to pass through.
@@ -134,6 +145,7 @@ struct SceneDescription {
   std::vector<ObjectDescription> objects{};
   std::vector<PersonDescription> people{};
   std::vector<RelocationDescription> relocations{};
+  std::vector<MoveDescription> moves{};  ///< those of one object by time
   CameraPathDescription camera{};
   SensorDescription sensor{};
 };

@@ -36,6 +36,7 @@ constexpr std::array kEntries = {
     Entry{"desk", &pieces::desk},
     Entry{"desk_lamp", &pieces::desk_lamp},
     Entry{"dining_table", &pieces::dining_table},
+    Entry{"door_leaf", &pieces::door_leaf},
     Entry{"drawer_unit", &pieces::drawer_unit},
     Entry{"fire_extinguisher", &pieces::fire_extinguisher},
     Entry{"floor_lamp", &pieces::floor_lamp},

@@ -3,6 +3,7 @@
 
 #include "common/simulation/furniture/materials.hpp"
 #include "common/simulation/furniture/openings.hpp"
+#include "common/simulation/furniture/pieces.hpp"
 
 namespace tsg::simulation {
 namespace {
@@ -55,8 +56,9 @@ void add_handle(Assembly& leaf, float y, float side) {
             0.009F, steel);
 }
 
-/// A leaf in its own axes: hinges along z at the origin, closed along +y, its face at x = 0. Two
-/// thin panels in a frame of posts and rails.
+}  // namespace
+
+/// Two thin panels in a frame of posts and rails.
 render::Mesh make_leaf(float width_m, float height_m, Random& random) {
   const render::Material board = random.chance(0.5)
                                      ? materials::wood(textures::Wood::kBeech, random)
@@ -81,7 +83,27 @@ render::Mesh make_leaf(float width_m, float height_m, Random& random) {
   return leaf.finished();
 }
 
-}  // namespace
+FurnitureModel pieces::door_leaf(Random& random) {
+  constexpr float kWidth = 0.84F;
+  constexpr float kHeight = 2.0F;
+  Assembly parts;
+  parts.add(make_leaf(kWidth, kHeight, random));
+  // Both faces have been hung with a poster and notices, which cover the panels.
+  for (const float side : {1.0F, -1.0F}) {
+    const float face = side > 0.0F ? 0.002F : -kLeaf - 0.002F;
+    const double yaw = side > 0.0F ? 0.0 : std::numbers::pi;
+    parts.add(
+        render::make_picture(0.64F, 0.86F, materials::pictured(textures::poster(random), 1.0)),
+        placed({face, 0.5F * kWidth, 1.04F}, yaw));
+    parts.add(render::make_picture(0.64F, 0.74F,
+                                   materials::pictured(textures::pinned_papers(random), 1.0)),
+              placed({face, 0.5F * kWidth, 0.18F}, yaw));
+  }
+  FurnitureModel model;
+  model.class_name = "door";
+  model.mesh = parts.finished();
+  return model;
+}
 
 void add_doors(Assembly& parts, const SceneDescription& scene, const std::vector<Wall>& walls) {
   std::vector<const Wall*> first_of(scene.doors.size(), nullptr);
@@ -104,8 +126,10 @@ void add_doors(Assembly& parts, const SceneDescription& scene, const std::vector
       const float width = hole.right_m - hole.left_m - 2.0F * kLining - 0.006F;
       const double open_rad =
           depth ? scene.doors[hole.opening].open_deg * std::numbers::pi / 180.0 : 0.0;
-      door.add(make_leaf(width, hole.top_m - kLining - 0.018F, random),
-               placed({-0.004F, hole.left_m + kLining + 0.003F, 0.012F}, -open_rad));
+      if (scene.doors[hole.opening].has_leaf) {
+        door.add(make_leaf(width, hole.top_m - kLining - 0.018F, random),
+                 placed({-0.004F, hole.left_m + kLining + 0.003F, 0.012F}, -open_rad));
+      }
       parts.add(door.finished(), wall.T_world_wall);
     }
   }

@@ -72,6 +72,9 @@ namespace tsg::simulation::pieces {
 [[nodiscard]] FurnitureModel printer(Random& random);
 [[nodiscard]] FurnitureModel water_cooler(Random& random);
 
+// doors.cpp: origin at the foot of the hinges, closed along +y
+[[nodiscard]] FurnitureModel door_leaf(Random& random);
+
 // kitchen.cpp
 [[nodiscard]] FurnitureModel fridge(Random& random);
 [[nodiscard]] FurnitureModel sink_unit(Random& random);

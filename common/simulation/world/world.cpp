@@ -1,10 +1,12 @@
 #include "common/simulation/world/world.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "common/simulation/furniture/room.hpp"
+#include "common/simulation/people/easing.hpp"
 
 namespace tsg::simulation {
 namespace {
@@ -12,6 +14,9 @@ namespace {
 constexpr double kMotionWindowS = 1.0 / 60.0;  // to either side
 constexpr double kStillM = 1e-3;               // in the window: 3 cm/s is no longer standing still
 constexpr double kStillRad = 2e-3;
+// Light is known at the corners of faces: where one lies hidden inside another part of the thing,
+// no more than so much of its face is dark.
+constexpr float kBodyLightGridM = 0.08F;
 
 Prop prop_of(const PlacedObject& object) {
   return {.T_world_object = object.T_world_object,
@@ -21,22 +26,49 @@ Prop prop_of(const PlacedObject& object) {
           .top_m = object.model.top_m};
 }
 
-Expected<void> check_relocations(const std::vector<RelocationDescription>& relocations,
-                                 const std::map<std::string, Prop>& props,
-                                 const std::vector<std::string>& taken_by_people) {
-  for (const RelocationDescription& relocation : relocations) {
-    const std::string& name = relocation.object;
+Error clash(const std::string& name, const std::string& what, const std::string& other) {
+  return {ExitCode::kBadData,
+          "object '" + name + "' " + what + ", and " + other + " as well; keep one of both"};
+}
+
+/// That a thing is there to be relocated or moved, and that nobody else does so.
+Expected<void> check_displaced(const SceneDescription& scene,
+                               const std::map<std::string, Prop>& props,
+                               const std::vector<std::string>& taken_by_people) {
+  const auto check = [&](const std::string& name, const std::string& what) -> Expected<void> {
     if (!props.contains(name)) {
-      return make_error(ExitCode::kBadData,
-                        "there is no object '" + name + "' that could be relocated");
+      return make_error(ExitCode::kBadData, "there is no object '" + name + "' that could be " +
+                                                (what == "is relocated" ? "relocated" : "moved"));
     }
     if (std::ranges::find(taken_by_people, name) != taken_by_people.end()) {
-      return make_error(ExitCode::kBadData, "object '" + name +
-                                                "' is relocated, and moved by a "
-                                                "person as well; keep one of both");
+      return tl::unexpected(clash(name, what, "moved by a person"));
+    }
+    return {};
+  };
+  for (const RelocationDescription& relocation : scene.relocations) {
+    if (auto ok = check(relocation.object, "is relocated"); !ok) return ok;
+  }
+  for (const MoveDescription& move : scene.moves) {
+    if (auto ok = check(move.object, "moves by itself"); !ok) return ok;
+    const auto relocated =
+        std::ranges::find(scene.relocations, move.object, &RelocationDescription::object);
+    if (relocated != scene.relocations.end()) {
+      return tl::unexpected(clash(move.object, "moves by itself", "is relocated"));
     }
   }
   return {};
+}
+
+FloorPose floor_pose_of(const SE3& T_support_object) {
+  const Eigen::Vector3d front = T_support_object.rotation() * Eigen::Vector3d::UnitX();
+  return {T_support_object.translation().head<2>(), std::atan2(front.y(), front.x())};
+}
+
+/// Where a move that has begun at `from` has led by `time_s`.
+FloorPose moved(const FloorPose& from, const MoveDescription& move, double time_s) {
+  const double share = eased((time_s - move.from_s) / (move.to_s - move.from_s));
+  return {mixed_values(from.position_m, move.to_m.value_or(from.position_m), share),
+          mixed_values(from.yaw_rad, move.yaw_rad.value_or(from.yaw_rad), share)};
 }
 
 }  // namespace
@@ -49,7 +81,7 @@ Expected<World> World::build(const SceneDescription& scene) {
   auto choreography = Choreography::plan(scene.people, props, scene.seed);
   if (!choreography) return tl::unexpected(choreography.error());
   const std::vector<std::string> taken = choreography->moved_objects();
-  if (const auto ok = check_relocations(scene.relocations, props, taken); !ok) {
+  if (const auto ok = check_displaced(scene, props, taken); !ok) {
     return tl::unexpected(ok.error());
   }
   World world(std::move(*choreography));
@@ -58,10 +90,14 @@ Expected<World> World::build(const SceneDescription& scene) {
         .on = object.description.on,
         .T_support_object = object.T_support_object,
         .relocations = {},
+        .moves = {},
         .is_taken_by_people = std::ranges::find(taken, object.description.name) != taken.end()};
   }
   for (const RelocationDescription& relocation : scene.relocations) {
     world.objects_.at(relocation.object).relocations.push_back(relocation);
+  }
+  for (const MoveDescription& move : scene.moves) {
+    world.objects_.at(move.object).moves.push_back(move);
   }
   for (auto& [name, object] : world.objects_) {
     std::ranges::sort(object.relocations, {}, &RelocationDescription::at_s);
@@ -87,7 +123,7 @@ void World::add_object(const PlacedObject& object) {
   const int id = add_instance(object.model.class_name, name, moves);
   render::Part part{.mesh = {}, .tag = static_cast<std::uint16_t>(id)};
   if (moves) {
-    part.mesh = object.model.mesh;
+    part.mesh = render::subdivided(object.model.mesh, kBodyLightGridM);
     // People come behind all things: their order in the choreography is theirs among the bodies.
     bodies_.push_back(std::move(part));
     moved_.push_back(name);
@@ -127,14 +163,22 @@ void World::pose_body(std::size_t body,
 SE3 World::T_world_object(const std::string& name, double time_s) const {
   const Standing& object = objects_.at(name);
   if (object.is_taken_by_people) return choreography_.T_world_object(name, time_s);
-  const auto next =
-      std::ranges::upper_bound(object.relocations, time_s, {}, &RelocationDescription::at_s);
-  const SE3 T_support_object =
-      next == object.relocations.begin()
-          ? object.T_support_object
-          : pose_at(std::prev(next)->to, object.T_support_object.translation().z());
+  const SE3 T_support_object = object.T_support_object_at(time_s);
   if (object.on.empty()) return T_support_object;
   return T_world_object(object.on, time_s) * T_support_object;
+}
+
+SE3 World::Standing::T_support_object_at(double time_s) const {
+  const double z_m = T_support_object.translation().z();
+  if (!moves.empty()) {
+    FloorPose pose = floor_pose_of(T_support_object);
+    for (const MoveDescription& move : moves) {
+      if (time_s > move.from_s) pose = moved(pose, move, time_s);
+    }
+    return pose_at(pose, z_m);
+  }
+  const auto next = std::ranges::upper_bound(relocations, time_s, {}, &RelocationDescription::at_s);
+  return next == relocations.begin() ? T_support_object : pose_at(std::prev(next)->to, z_m);
 }
 
 bool World::is_moved(const std::string& name) const {

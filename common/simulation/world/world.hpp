@@ -47,8 +47,13 @@ class World {
     std::string on;
     SE3 T_support_object;
     std::vector<RelocationDescription> relocations;  ///< by time
+    std::vector<MoveDescription> moves;              ///< by time
     bool is_taken_by_people = false;
-    [[nodiscard]] bool moves_itself() const { return is_taken_by_people || !relocations.empty(); }
+    [[nodiscard]] bool moves_itself() const {
+      return is_taken_by_people || !relocations.empty() || !moves.empty();
+    }
+    /// Where it is at a time, where people leave it alone.
+    [[nodiscard]] SE3 T_support_object_at(double time_s) const;
   };
 
   explicit World(Choreography choreography) : choreography_(std::move(choreography)) {}

@@ -98,6 +98,36 @@ TEST(World, RelocatedThingsTakeAlongWhatStandsOnThem) {
                   .isApprox(Eigen::Vector2d(3.2, 3.1)));
 }
 
+TEST(World, ThingsMoveByThemselvesGentlyAndAreToldAsMovingWhileTheyDo) {
+  SceneDescription scene = furnished_room();
+  scene.moves = {
+      {.object = "desk", .from_s = 1.0, .to_s = 3.0, .to_m = Eigen::Vector2d(4, 1)},
+      {.object = "desk", .from_s = 5.0, .to_s = 6.0, .yaw_rad = 0.0},
+  };
+  const World world = value_or_throw(World::build(scene));
+  const auto place = [&](double time_s) -> Eigen::Vector2d {
+    return world.T_world_object("desk", time_s).translation().head<2>();
+  };
+  EXPECT_TRUE(place(0.5).isApprox(Eigen::Vector2d(2, 1)));
+  EXPECT_TRUE(place(2.0).isApprox(Eigen::Vector2d(3, 1))) << "halfway";
+  EXPECT_LT(place(1.2).x() - 2.0, 0.1 * 2.0) << "slower than evenly at first";
+  EXPECT_TRUE(place(9.0).isApprox(Eigen::Vector2d(4, 1)));
+  EXPECT_TRUE(world.T_world_object("desk", 9.0).rotation_matrix().isIdentity(1e-9));
+  EXPECT_TRUE(world.T_world_object("cup", 9.0)
+                  .translation()
+                  .head<2>()
+                  .isApprox(Eigen::Vector2d(4.2, 1.1), 1e-6))
+      << "what stands on it goes along";
+  for (const auto& [time_s, moves] :
+       {std::pair{0.9, false}, {2.0, true}, {4.0, false}, {5.5, true}, {6.1, false}}) {
+    for (const char* name : {"desk", "cup"}) {
+      const std::vector<int> ids = world.moving(time_s);
+      EXPECT_EQ(std::ranges::find(ids, id_of(world, name)) != ids.end(), moves)
+          << name << " at " << time_s << " s";
+    }
+  }
+}
+
 TEST(World, PosesBodiesWhereTheirObjectsAre) {
   SceneDescription scene = furnished_room();
   scene.relocations = {{.object = "chair", .at_s = 2.0, .to = {{1.0, 3.0}, 0.0}}};
@@ -137,6 +167,16 @@ TEST(World, NamesWhatDoesNotFit) {
   scene.relocations = {{.object = "chair", .at_s = 1.0}};
   EXPECT_EQ(build_error(scene),
             "object 'chair' is relocated, and moved by a person as well; keep one of both");
+
+  scene = furnished_room();
+  scene.moves = {{.object = "sofa", .from_s = 1.0, .to_s = 2.0}};
+  EXPECT_EQ(build_error(scene), "there is no object 'sofa' that could be moved");
+
+  scene = furnished_room();
+  scene.moves = {{.object = "chair", .from_s = 1.0, .to_s = 2.0}};
+  scene.relocations = {{.object = "chair", .at_s = 1.0}};
+  EXPECT_EQ(build_error(scene),
+            "object 'chair' moves by itself, and is relocated as well; keep one of both");
 
   scene = furnished_room();
   scene.people = {pusher("piano")};
