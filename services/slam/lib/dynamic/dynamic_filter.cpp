@@ -145,7 +145,7 @@ Judgement DynamicFilter::judge_by_motion(const Features& features, const SE3* T_
 }
 
 Judgement DynamicFilter::judge_by_epipolar(const Features& features) const {
-  const PastFrame* previous = past_.before(1);
+  const PastFrame* previous = past_.previous();
   if (previous == nullptr || previous->features == nullptr) return {};
   CouplingVerdicts verdicts =
       judge_by_epipolar_lines(*previous->features, features, config_.method, {});
@@ -154,6 +154,7 @@ Judgement DynamicFilter::judge_by_epipolar(const Features& features) const {
           .dynamic_cells = {},
           .instances = {}};
 }
+
 Judgement DynamicFilter::judge_by_depth(const Features& features, const SE3& T_world_camera) {
   const cv::Mat evidence = compare_with_past(T_world_camera);
   const auto motion = compare_with_reference(features, T_world_camera);

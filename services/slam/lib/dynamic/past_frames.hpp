@@ -29,6 +29,10 @@ class PastFrames {
   /// The frame being judged; there must be one.
   [[nodiscard]] PastFrame& now() { return frames_.back(); }
   [[nodiscard]] const PastFrame& now() const { return frames_.back(); }
+  /// The one before it; null where there is none.
+  [[nodiscard]] const PastFrame* previous() const {
+    return frames_.size() < 2 ? nullptr : &frames_[frames_.size() - 2];
+  }
   /// Null where it is forgotten or never was.
   [[nodiscard]] PastFrame* find(std::uint64_t seq);
   [[nodiscard]] const PastFrame* find(std::uint64_t seq) const;
