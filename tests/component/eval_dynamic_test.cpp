@@ -128,6 +128,14 @@ TEST_F(EvalDynamic, MistakesAreToldWithTheirCode) {
   }
 }
 
+TEST_F(EvalDynamic, RunHasNoPicturesOfWhatANetworkSees) {
+  const ProgramResult result = tsgctl({"run", "--input", crowd(), "--out", path("out"), "--debug",
+                                       "--segmentation", "model", "--model", "net.onnx"});
+  EXPECT_EQ(result.end.exit_code, code(ExitCode::kUsage)) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("--segmentation dataset or off"));
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
 TEST_F(EvalDynamic, ReportRunsEveryMethodOnEverySequence) {
   const ProgramResult result =
       tsgctl({"report", "methods", crowd(), plain(), "--methods", "mask,full", "--variants",

@@ -70,6 +70,21 @@ TEST(RunSimulatedRoom, TwoLockstepRunsGiveTheSameTrajectoryToTheByte) {
   EXPECT_EQ(trajectory, test::content_of(second.out() / "trajectory.txt"));
 }
 
+TEST(RunSimulatedRoom, DrawsWhatWasJudgedOnRequest) {
+  std::vector<std::string> options = lockstep("dataset");
+  options.insert(options.end(), {"--debug", "--method", "mask"});
+  TsgctlRun run(simulated_room(), options);
+  const auto old = run.out() / "debug" / "000777.png";
+  std::filesystem::create_directories(old.parent_path());
+  std::ofstream(old) << "of an earlier run";
+  complete_run(run);
+  for (const char* name : {"000000.png", "000010.png", "000020.png", "000030.png"}) {
+    EXPECT_THAT(test::content_of(run.out() / "debug" / name), HasSubstr("PNG")) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(run.out() / "debug" / "000001.png"));
+  EXPECT_FALSE(std::filesystem::exists(old));
+}
+
 TEST(RunSimulatedRoom, SavesAMapAndFindsItsWayInItTheNextTime) {
   const TempFolder maps;
   const std::string map = (maps / "room.tsgmap").string();

@@ -13,6 +13,7 @@ namespace {
 
 // BGR
 const cv::Scalar kGreen(80, 220, 60);
+const cv::Scalar kDarkGreen(50, 130, 40);  // so that dots stand out against outlines
 const cv::Scalar kRed(50, 50, 255);
 const cv::Scalar kAmber(0, 170, 255);
 const cv::Scalar kMagenta(255, 60, 255);
@@ -27,12 +28,12 @@ constexpr double kSameThing = 0.3;  // overlap of a mask's instance and a follow
 
 cv::Scalar colour_of(const InstanceState& state) {
   if (state.is_moving) return kRed;
-  return state.prior == FeatureVerdict::kStatic ? kGreen : kAmber;
+  return state.prior == FeatureVerdict::kStatic ? kDarkGreen : kAmber;
 }
 
 cv::Scalar colour_of(FeatureVerdict prior) {
   if (prior == FeatureVerdict::kDynamic) return kRed;
-  return prior == FeatureVerdict::kPotentiallyDynamic ? kAmber : kGreen;
+  return prior == FeatureVerdict::kPotentiallyDynamic ? kAmber : kDarkGreen;
 }
 
 cv::Scalar colour_of(const JudgedFeature& feature) {
@@ -46,6 +47,12 @@ double overlap(const cv::Rect& a, const cv::Rect& b) {
   return joined > 0.0 ? common / joined : 0.0;
 }
 
+struct Label {
+  std::string text;
+  cv::Point corner;  ///< upper left
+  cv::Scalar colour;
+};
+
 class Painter {
  public:
   explicit Painter(const DebugView& view)
@@ -58,6 +65,7 @@ class Painter {
     if (view_.mask != nullptr) draw_mask();
     for (const JudgedFeature& feature : view_.verdicts->features) draw(feature);
     for (const InstanceState& state : view_.verdicts->instances) draw(state);
+    for (const Label& label : labels_) write(label);
     draw_legend();
     return image_;
   }
@@ -69,7 +77,7 @@ class Painter {
   void draw(const JudgedFeature& feature);
   void draw(const InstanceState& state);
   void draw_legend();
-  void write(const std::string& text, cv::Point corner, const cv::Scalar& colour);
+  void write(const Label& label);
 
   [[nodiscard]] cv::Point enlarged(int x, int y) const {
     return {x * scale_ + scale_ / 2, y * scale_ + scale_ / 2};
@@ -79,6 +87,7 @@ class Painter {
   const DebugView& view_;
   int scale_;
   cv::Mat image_;
+  std::vector<Label> labels_;  ///< on top of all else
 };
 
 const InstanceState* Painter::state_of(const Instance& instance) const {
@@ -103,7 +112,7 @@ void Painter::draw_mask() {
     const cv::Scalar colour = state == nullptr ? colour_of(prior) : colour_of(*state);
     const cv::Point top = draw_outline(static_cast<int>(i) + 1, colour);
     if (state != nullptr || prior == FeatureVerdict::kStatic) continue;
-    write(instance.class_name, top, colour);
+    labels_.push_back({instance.class_name, top, colour});
   }
 }
 
@@ -135,18 +144,20 @@ void Painter::draw(const InstanceState& state) {
   const cv::Rect box(state.box.tl() * scale_, state.box.size() * scale_);
   cv::rectangle(image_, box, colour, state.is_moving ? 2 : 1, cv::LINE_AA);
   const std::string name = state.class_name.empty() ? "no class" : state.class_name;
-  write(name + " " + std::to_string(state.id) + "  " + fixed(state.p_moving, 2), box.tl(), colour);
+  labels_.push_back(
+      {name + " " + std::to_string(state.id) + "  " + fixed(state.p_moving, 2), box.tl(), colour});
 }
 
-/// On a dark ground that begins at `corner`, but lies inside the picture.
-void Painter::write(const std::string& text, cv::Point corner, const cv::Scalar& colour) {
-  const cv::Size size = cv::getTextSize(text, kFont, kFontScale, 1, nullptr);
+/// On a dark ground that begins at the label's corner, but lies inside the picture.
+void Painter::write(const Label& label) {
+  const cv::Size size = cv::getTextSize(label.text, kFont, kFontScale, 1, nullptr);
   const cv::Size ground(size.width + 8, size.height + 8);
-  corner.x = std::clamp(corner.x, 0, std::max(0, image_.cols - ground.width));
-  corner.y = std::clamp(corner.y, 0, std::max(0, picture_height() - ground.height));
+  const cv::Point corner(
+      std::clamp(label.corner.x, 0, std::max(0, image_.cols - ground.width)),
+      std::clamp(label.corner.y, 0, std::max(0, picture_height() - ground.height)));
   cv::rectangle(image_, cv::Rect(corner, ground), kDark, cv::FILLED);
-  cv::putText(image_, text, {corner.x + 4, corner.y + ground.height - 4}, kFont, kFontScale, colour,
-              1, cv::LINE_AA);
+  cv::putText(image_, label.text, {corner.x + 4, corner.y + ground.height - 4}, kFont, kFontScale,
+              label.colour, 1, cv::LINE_AA);
 }
 
 void Painter::draw_legend() {

@@ -15,7 +15,7 @@ cv::Vec3b at(const cv::Mat& picture, int x, int y) {
 }
 
 bool is_red(const cv::Vec3b& bgr) { return bgr[2] > 200 && bgr[0] < 120 && bgr[1] < 120; }
-bool is_green(const cv::Vec3b& bgr) { return bgr[1] > 180 && bgr[0] < 120 && bgr[2] < 120; }
+bool is_green(const cv::Vec3b& bgr) { return bgr[1] > 110 && bgr[0] < 120 && bgr[2] < 120; }
 bool is_magenta(const cv::Vec3b& bgr) { return bgr[2] > 200 && bgr[0] > 200 && bgr[1] < 120; }
 
 class DebugPicture : public ::testing::Test {
