@@ -92,7 +92,6 @@ class RunProgress {
 void write(const MethodsReport& report, const std::filesystem::path& out) {
   throw_on_error(write_file_atomically(out / "methods.md", to_markdown(report)));
   throw_on_error(write_file_atomically(out / "methods.json", to_json(report).dump(2) + "\n"));
-  std::cout << to_markdown(report);
 }
 
 void run(ReportArguments& arguments) {
@@ -107,9 +106,12 @@ void run(ReportArguments& arguments) {
   options.variants = variants_of(arguments.variants);
   throw_on_error(make_folder(arguments.out));
   RunProgress progress;
-  MethodsReport report = run_methods(options, std::ref(progress));
-  report.command = command_of(arguments);
-  write(report, arguments.out);
+  // After each sequence, as it may take long and be stopped before its end.
+  const MethodsReport report =
+      run_methods(options, command_of(arguments),
+                  {.on_progress = std::ref(progress),
+                   .on_sequence = [&](const MethodsReport& now) { write(now, arguments.out); }});
+  std::cout << to_markdown(report);
   const std::vector<std::string> problems = report.problems();
   if (problems.empty()) return;
   throw FatalError(ExitCode::kFailure, "failed runs: " + std::to_string(problems.size()) +

@@ -102,17 +102,20 @@ std::vector<std::string> sequence_names(const std::vector<fs::path>& folders) {
 }
 
 MethodsReport run_methods(const MethodsOptions& options,
-                          const std::function<void(const MethodsProgress&)>& on_progress) {
+                          const std::string& command,
+                          const MethodsHooks& hooks) {
   MethodsReport report;
+  report.command = command;
   for (const DynamicMethod method : options.methods) report.methods.emplace_back(name_of(method));
   for (const RunVariant* variant : options.variants) {
     report.variants.emplace_back(variant->name);
     report.variant_texts.emplace_back(variant->text);
   }
-  const MethodsRunner runner(options, on_progress);
+  const MethodsRunner runner(options, hooks.on_progress);
   const std::vector<std::string> names = sequence_names(options.sequences);
   for (std::size_t i = 0; i < names.size(); ++i) {
     report.sequences.push_back(runner.run_all(names[i], options.sequences[i]));
+    hooks.on_sequence(report);
   }
   return report;
 }

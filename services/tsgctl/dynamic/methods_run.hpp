@@ -32,9 +32,16 @@ struct MethodsProgress {
 [[nodiscard]] std::vector<std::string> sequence_names(
     const std::vector<std::filesystem::path>& folders);
 
+/// What the caller does meanwhile.
+struct MethodsHooks {
+  std::function<void(const MethodsProgress&)> on_progress;
+  std::function<void(const MethodsReport&)> on_sequence;  ///< with all that is done by then
+};
+
 /// Runs each method and each variant over each sequence. What fails is told in the report, and the
-/// next one is run.
-[[nodiscard]] MethodsReport run_methods(
-    const MethodsOptions& options, const std::function<void(const MethodsProgress&)>& on_progress);
+/// next one is run. `command` becomes the report's.
+[[nodiscard]] MethodsReport run_methods(const MethodsOptions& options,
+                                        const std::string& command,
+                                        const MethodsHooks& hooks);
 
 }  // namespace tsg

@@ -25,8 +25,13 @@ TEST(RunMethods, TellsOfEachRunThatFailsAndGoesOn) {
   options.methods = {DynamicMethod::kNone, DynamicMethod::kTsg};
   options.variants = {*find_variant("late3")};
   std::vector<std::string> begun;
-  const MethodsReport report =
-      run_methods(options, [&](const MethodsProgress& now) { begun.push_back(now.run); });
+  std::vector<std::size_t> done;
+  const MethodsReport report = run_methods(
+      options, "tsgctl report",
+      {.on_progress = [&](const MethodsProgress& now) { begun.push_back(now.run); },
+       .on_sequence = [&](const MethodsReport& now) { done.push_back(now.problems().size()); }});
+  EXPECT_THAT(done, ElementsAre(3, 6));
+  EXPECT_EQ(report.command, "tsgctl report");
   EXPECT_THAT(begun, ElementsAre("one, none", "one, tsg", "one, late3", "two, none", "two, tsg",
                                  "two, late3"));
   ASSERT_EQ(report.sequences.size(), 2U);
