@@ -32,6 +32,17 @@ cv::Point cell_of(const Feature& feature) {
   return {feature.raw_x / kCellSide, feature.raw_y / kCellSide};
 }
 
+/// How many of them moved alike: the others are wrong matches.
+int largest_company(const std::vector<FeatureMotion>& moved) {
+  std::ptrdiff_t most = 0;
+  for (const FeatureMotion& one : moved) {
+    most = std::max(most, std::ranges::count_if(moved, [&](const FeatureMotion& other) {
+                      return moved_alike(one, other);
+                    }));
+  }
+  return static_cast<int>(most);
+}
+
 /// Cells without depth beside what moves are its shadow in the sensor's light.
 void add_shadow(const cv::Mat& depth, cv::Mat& moving) {
   cv::Mat near;
@@ -111,7 +122,8 @@ cv::Mat DynamicFilter::by_place(const InstanceSegmentation& mask, const cv::Size
   cv::Mat cells;
   cv::LUT(located_, table, cells);
   dynamic = cells == static_cast<double>(FeatureVerdict::kDynamic);
-  add_shadow(past_.now().depth, dynamic);
+  // What was carried here may have gone on to where the sensor sees nothing.
+  if (mask.frame_seq != past_.now().seq) add_shadow(past_.now().depth, dynamic);
   cells.setTo(static_cast<double>(FeatureVerdict::kDynamic), dynamic);
   cv::Mat verdicts;
   cv::resize(cells, verdicts, {cells.cols * kCellSide, cells.rows * kCellSide}, 0, 0,
@@ -190,17 +202,21 @@ std::vector<FeatureMotion> DynamicFilter::compare_with_reference(const Features&
     return compare_features(model_, {features, T_world_camera},
                             {*then->features, *then->T_world_camera});
   }
-  return std::vector<FeatureMotion>(features.size(), FeatureMotion::kUnknown);
+  return std::vector<FeatureMotion>(features.size());
 }
 
 void DynamicFilter::weigh_tracks(const Features& features,
                                  const std::vector<FeatureMotion>& motion,
                                  const cv::Mat& evidence) {
   std::vector<MotionCounts> counts(tracks_.tracks().size() + 1);
+  std::vector<std::vector<FeatureMotion>> moved(counts.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
-    MotionCounts& of_track = counts[located_.at<std::uint8_t>(cell_of(features.items[i]))];
-    of_track.features_moved += motion[i] == FeatureMotion::kMoved ? 1 : 0;
-    of_track.features_still += motion[i] == FeatureMotion::kStill ? 1 : 0;
+    const std::size_t track = located_.at<std::uint8_t>(cell_of(features.items[i]));
+    if (motion[i].motion == Motion::kMoved) moved[track].push_back(motion[i]);
+    if (motion[i].motion == Motion::kStill) ++counts[track].features_still;
+  }
+  for (std::size_t track = 1; track < counts.size(); ++track) {
+    counts[track].features_moved = largest_company(moved[track]);
   }
   for (int y = 0; y < evidence.rows; ++y) {
     const auto* says = evidence.ptr<std::uint8_t>(y);
@@ -222,7 +238,6 @@ cv::Mat DynamicFilter::moving_cells(const cv::Mat& evidence) const {
   for (std::size_t i = 0; !located_.empty() && i < tracks_.tracks().size(); ++i) {
     if (tracks_.tracks()[i].is_moving()) moving |= located_ == static_cast<double>(i + 1);
   }
-  add_shadow(depth, moving);
   // A corner beside a silhouette is half of what moves, whatever its depth.
   cv::dilate(moving, moving, cv::Mat());
   return moving;

@@ -17,10 +17,13 @@ constexpr float kStillReach = 4.0F;        // pixels: what is found here needs n
 constexpr MatchLimits kStillLimits{.max_distance = 70, .max_ratio = 0.95F};
 constexpr MatchLimits kMovedLimits{.max_distance = 50, .max_ratio = 0.8F};
 
-constexpr float kNeighbourhood = 40.0F;  // pixels
-constexpr float kLikeDepth = 0.08F;      // share of inverse depth
-constexpr int kMinCompany = 4;           // moved neighbours, itself included
-constexpr double kMinMovedShare = 0.6;   // of the neighbours that were tested
+constexpr float kNeighbourhood = 40.0F;       // pixels
+constexpr float kLikeDepth = 0.08F;           // share of inverse depth
+constexpr float kInverseDepthScale = 400.0F;  // pixels per 1/m: 1 % of a metre off at 1 m weighs 4
+constexpr float kAlikePixels = 4.0F;
+constexpr float kAlikeShare = 0.3F;     // of the shift: things turn, too
+constexpr int kMinCompany = 4;          // moved neighbours, itself included
+constexpr double kMinMovedShare = 0.6;  // of the neighbours that were tested
 
 std::vector<MatchTarget> lay_over(const ObservationModel& model,
                                   const Features& from,
@@ -52,19 +55,46 @@ std::vector<MatchTarget> lay_over(const ObservationModel& model,
 FeatureMotion judge(const ObservationModel& model,
                     const Feature& seen,
                     const MatchTarget& expected) {
+  FeatureMotion found{.motion = Motion::kStill};
+  found.shift.head<2>() = seen.pixel - expected.pixel;
+  double depth_miss = 0.0;
+  if (seen.has_depth()) {
+    const float difference = seen.inverse_depth - expected.inverse_depth;
+    depth_miss = std::abs(difference);
+    found.shift.z() = kInverseDepthScale * difference;
+  }
   const double scale = model.level_scale(seen.level);
-  const double miss = (seen.pixel - expected.pixel).norm();
-  if (miss > kMovedPixels * scale) return FeatureMotion::kMoved;
-  if (!seen.has_depth()) return FeatureMotion::kStill;
-  const double depth_miss = std::abs(seen.inverse_depth - expected.inverse_depth);
-  const double allowed = kMovedDepthSigmas * std::sqrt(2.0) * model.inverse_depth_sigma();
-  return depth_miss > allowed ? FeatureMotion::kMoved : FeatureMotion::kStill;
+  const double depth_noise = std::sqrt(2.0) * model.inverse_depth_sigma();
+  if (found.shift.head<2>().norm() > kMovedPixels * scale ||
+      depth_miss > kMovedDepthSigmas * depth_noise) {
+    found.motion = Motion::kMoved;
+  }
+  return found;
 }
 
 bool is_like(const Feature& a, const Feature& b) {
   if ((a.pixel - b.pixel).cwiseAbs().maxCoeff() > kNeighbourhood) return false;
   if (!a.has_depth() || !b.has_depth()) return true;
   return std::abs(a.inverse_depth - b.inverse_depth) <= kLikeDepth * a.inverse_depth;
+}
+
+/// Neighbours of what moves that could not be tested, where none was seen to stand still.
+void take_along(const Features& features,
+                const std::vector<FeatureMotion>& motion,
+                std::vector<bool>& moving) {
+  const std::vector<bool> tested = moving;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (motion[i].motion == Motion::kStill || tested[i]) continue;
+    int moved = 0;
+    int others = 0;
+    features.grid.for_each_near(features.items[i].pixel, kNeighbourhood, [&](int index) {
+      const auto k = static_cast<std::size_t>(index);
+      if (motion[k].motion == Motion::kUnknown) return;
+      if (!is_like(features.items[i], features.items[k])) return;
+      ++(tested[k] ? moved : others);
+    });
+    moving[i] = moved >= kMinCompany && moved >= kMinMovedShare * (moved + others);
+  }
 }
 
 }  // namespace
@@ -74,7 +104,7 @@ std::vector<FeatureMotion> compare_features(const ObservationModel& model,
                                             const FeatureView& then) {
   const SE3 T_now_then = now.T_world_camera.inverse() * then.T_world_camera;
   auto targets = lay_over(model, then.features, T_now_then);
-  std::vector<FeatureMotion> motion(now.features.size(), FeatureMotion::kUnknown);
+  std::vector<FeatureMotion> motion(now.features.size(), FeatureMotion{});
   std::vector<bool> explained(now.features.size(), false);
   const auto take = [&](const std::vector<FeatureMatch>& matches) {
     for (const FeatureMatch& match : matches) {
@@ -95,22 +125,29 @@ std::vector<FeatureMotion> compare_features(const ObservationModel& model,
   return motion;
 }
 
+bool moved_alike(const FeatureMotion& a, const FeatureMotion& b) {
+  const float allowed = kAlikePixels + kAlikeShare * std::max(a.shift.norm(), b.shift.norm());
+  return (a.shift - b.shift).norm() <= allowed;
+}
+
 std::vector<bool> moving_in_company(const Features& features,
                                     const std::vector<FeatureMotion>& motion) {
   std::vector<bool> moving(features.size(), false);
-  if (std::ranges::find(motion, FeatureMotion::kMoved) == motion.end()) return moving;
   for (std::size_t i = 0; i < features.size(); ++i) {
-    if (motion[i] == FeatureMotion::kStill) continue;
-    int moved = 0;
-    int still = 0;
+    if (motion[i].motion != Motion::kMoved) continue;
+    int alike = 0;
+    int others = 0;
     features.grid.for_each_near(features.items[i].pixel, kNeighbourhood, [&](int index) {
       const auto k = static_cast<std::size_t>(index);
-      if (motion[k] == FeatureMotion::kUnknown || !is_like(features.items[i], features.items[k]))
-        return;
-      ++(motion[k] == FeatureMotion::kMoved ? moved : still);
+      if (motion[k].motion == Motion::kUnknown) return;
+      if (!is_like(features.items[i], features.items[k])) return;
+      const bool goes_along =
+          motion[k].motion == Motion::kMoved && moved_alike(motion[i], motion[k]);
+      ++(goes_along ? alike : others);
     });
-    moving[i] = moved >= kMinCompany && moved >= kMinMovedShare * (moved + still);
+    moving[i] = alike >= kMinCompany && alike >= kMinMovedShare * (alike + others);
   }
+  take_along(features, motion, moving);
   return moving;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "common/geometry/se3.hpp"
@@ -9,11 +10,20 @@
 namespace tsg {
 
 /// Whether a feature lies where a thing that stands still would be.
-enum class FeatureMotion : std::uint8_t {
+enum class Motion : std::uint8_t {
   kUnknown,  ///< not found in the earlier frame, or without depth there
   kStill,
   kMoved,
 };
+
+struct FeatureMotion {
+  Motion motion = Motion::kUnknown;
+  /// From where it would be to where it is: pixels, and inverse depth in units that weigh as much.
+  Eigen::Vector3f shift = Eigen::Vector3f::Zero();
+};
+
+/// Whether two features that moved may have moved together, as parts of one thing.
+[[nodiscard]] bool moved_alike(const FeatureMotion& a, const FeatureMotion& b);
 
 /// Features of an earlier frame and where it was taken.
 struct FeatureView {
@@ -28,8 +38,8 @@ struct FeatureView {
                                                           const FeatureView& now,
                                                           const FeatureView& then);
 
-/// The features that moved together with most of their neighbours at like depth: a wrong match
-/// stands alone. Neighbours that could not be tested go along.
+/// The features that moved alike with most of their neighbours at like depth: wrong matches go
+/// their own ways. Neighbours that could not be tested go along.
 [[nodiscard]] std::vector<bool> moving_in_company(const Features& features,
                                                   const std::vector<FeatureMotion>& motion);
 

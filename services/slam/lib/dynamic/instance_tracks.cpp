@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "common/core/time.hpp"
@@ -20,6 +21,7 @@ constexpr double kMinSpeed = 0.08;  // m/s; slower than the centre of a mask wan
 constexpr int kMaxMissedMasks = 3;  // networks lose a thing for a mask or two
 constexpr double kMinSupport =
     0.4;                           // share of a missed thing's cells where something is still there
+constexpr double kCutShort = 0.5;  // share of its border that runs across a surface
 constexpr int kEdgeCells = 3;      // masks are cut up to 10 pixels short
 constexpr float kMinDepth = 0.1F;  // metres
 
@@ -52,6 +54,17 @@ void note_place(InstanceTrack& track, const Eigen::Vector3d& centre) {
   if (span_ns < kMinTrailNs) return;
   const Eigen::Vector3d v_world = (centre - track.trail.front().centre) / to_seconds(span_ns);
   if (v_world.norm() >= kMinSpeed && v_world.norm() <= kMaxSpeed) track.v_world = v_world;
+}
+
+/// Whether most of the marked region's border runs across a surface instead of along its edge. A
+/// whole thing touches others, as feet do the floor, but only here and there.
+bool is_cut_short(const cv::Mat& depth, const GrowLimits& one_ring, const cv::Mat& marked) {
+  cv::Mat beside;
+  cv::dilate(marked, beside, cv::getStructuringElement(cv::MORPH_CROSS, {3, 3}));
+  const int border = cv::countNonZero(beside) - cv::countNonZero(marked);
+  cv::Mat grown = marked.clone();
+  grow_over_surface(depth, one_ring, grown);
+  return cv::countNonZero(grown) - cv::countNonZero(marked) > kCutShort * border;
 }
 
 /// Where nothing else is marked yet.
@@ -214,16 +227,17 @@ void InstanceTracks::mark_exact(const InstanceSegmentation& mask,
       if (z > 0.0) depths[static_cast<std::size_t>(track)].push_back(z);
     }
   }
-  // The rim that the mask lacks: what is connected to a moving thing belongs to it.
+  // The rim that a mask lacks: as long as most of what lies beside it is the same surface.
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (!tracks_[i].is_moving() || depths[i].empty()) continue;
     const auto [nearest, farthest] = usual_range(depths[i]);
+    const GrowLimits one_ring{.nearest = static_cast<float>(nearest - config_.depth_tolerance_m),
+                              .farthest = static_cast<float>(farthest + config_.depth_tolerance_m),
+                              .steps = 1};
     cv::Mat marked = located == static_cast<double>(i + 1);
-    grow_over_surface(depth,
-                      {.nearest = static_cast<float>(nearest - config_.depth_tolerance_m),
-                       .farthest = static_cast<float>(farthest + config_.depth_tolerance_m),
-                       .steps = kEdgeCells},
-                      marked);
+    for (int ring = 0; ring < kEdgeCells && is_cut_short(depth, one_ring, marked); ++ring) {
+      grow_over_surface(depth, one_ring, marked);
+    }
     add_region(marked, i, located);
   }
 }

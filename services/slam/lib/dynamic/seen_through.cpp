@@ -1,6 +1,5 @@
 #include "services/slam/lib/dynamic/seen_through.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -19,13 +18,14 @@ float tolerance(double sigma, float inverse_depth) {
                             kRelativeError * inverse_depth);
 }
 
-/// Whether all that was seen around a cell lay behind `inverse_depth`: at silhouettes a pose that
-/// is off by a little would show one surface through the other.
+/// Whether all around a cell was seen and lay behind `inverse_depth`: at silhouettes a pose that is
+/// off by a little would show one surface through the other, and of thin things the sensor misses
+/// parts at random.
 bool lay_behind(const cv::Mat& depth, int column, int row, float inverse_depth, float allowed) {
   for (int y = row - 1; y <= row + 1; ++y) {
     const auto* line = depth.ptr<float>(y);
     for (int x = column - 1; x <= column + 1; ++x) {
-      if (line[x] > 0.0F && inverse_depth - 1.0F / line[x] <= allowed) return false;
+      if (line[x] <= 0.0F || inverse_depth - 1.0F / line[x] <= allowed) return false;
     }
   }
   return true;
@@ -70,8 +70,8 @@ void compare_depth(const CameraModel& camera,
       if (column < 1 || row < 1 || column + 1 >= now.depth.cols || row + 1 >= now.depth.rows) {
         continue;
       }
-      const auto says = static_cast<std::uint8_t>(judge(then.depth, p_then, column, row, sigma));
-      found[x] = std::max(found[x], says);
+      const CellEvidence says = judge(then.depth, p_then, column, row, sigma);
+      if (says != CellEvidence::kNone) found[x] = static_cast<std::uint8_t>(says);
     }
   }
 }

@@ -21,9 +21,9 @@ struct DepthView {
 };
 
 /// Lays what `now` shows into the view `then` and compares, under the assumption that nothing
-/// moves. Writes CellEvidence to `evidence` (CV_8UC1, size of now.depth) where it says more than
-/// what is there: kAppeared wins over kSame over kNone. `camera` is that of the cells, `sigma` the
-/// standard deviation of inverse depth in 1/m.
+/// moves. Writes CellEvidence to `evidence` (CV_8UC1, size of now.depth) where there is any: to be
+/// called for several views from the latest to the earliest, as what was there already did not come
+/// since. `camera` is that of the cells, `sigma` the standard deviation of inverse depth in 1/m.
 void compare_depth(const CameraModel& camera,
                    const DepthView& now,
                    const DepthView& then,
