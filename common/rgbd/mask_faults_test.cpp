@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <opencv2/core.hpp>
 
 #include "common/rgbd/frame_delay.hpp"
@@ -86,15 +87,15 @@ TEST(MaskFaults, SegmentEveryTenthFrameOnly) {
 
 TEST(MaskFaults, EveryThirdMaskIsMissing) {
   MaskFaultInjector injector({.drop_every = 3});
-  std::vector<bool> present;
-  for (int i = 0; i < 6; ++i) present.push_back(injector.apply(three_things()).has_value());
+  std::array<bool, 6> present{};
+  for (bool& is_there : present) is_there = injector.apply(three_things()).has_value();
   EXPECT_THAT(present, ElementsAre(true, true, false, true, true, false));
 }
 
 TEST(MaskFaults, EverySecondMaskLacksOneInstanceEachInTurn) {
   MaskFaultInjector injector({.drop_instance_every = 2});
-  std::vector<std::vector<std::string>> seen;
-  for (int i = 0; i < 6; ++i) seen.push_back(classes(injector.apply(three_things()).value()));
+  std::array<std::vector<std::string>, 6> seen;
+  for (auto& mask : seen) mask = classes(injector.apply(three_things()).value());
   EXPECT_THAT(seen[0], ElementsAre("chair", "person", "dog"));
   EXPECT_THAT(seen[1], ElementsAre("person", "dog"));
   EXPECT_THAT(seen[2], ElementsAre("chair", "person", "dog"));
@@ -152,8 +153,8 @@ TEST(MaskFaults, NothingShrinksAtTheEdgeOfTheImage) {
 
 TEST(MaskFaults, EverySecondMaskHasOneWrongClassEachInTurn) {
   MaskFaultInjector injector({.swap_class_every = 2});
-  std::vector<std::vector<std::string>> seen;
-  for (int i = 0; i < 4; ++i) seen.push_back(classes(injector.apply(three_things()).value()));
+  std::array<std::vector<std::string>, 4> seen;
+  for (auto& mask : seen) mask = classes(injector.apply(three_things()).value());
   EXPECT_THAT(seen[0], ElementsAre("chair", "person", "dog"));
   EXPECT_THAT(seen[1], ElementsAre("person", "person", "dog"));
   EXPECT_THAT(seen[2], ElementsAre("chair", "person", "dog"));

@@ -105,6 +105,26 @@ FurnitureModel pieces::door_leaf(Random& random) {
   return model;
 }
 
+namespace {
+
+/// Lining and leaf in the wall's axes; a door without `depth` leads nowhere.
+render::Mesh make_door(const SceneDescription& scene,
+                       const Hole& hole,
+                       const std::optional<float>& depth) {
+  const OpeningDescription& opening = scene.doors[hole.opening];
+  Assembly door;
+  add_lining(door, hole, depth.value_or(static_cast<float>(kWallThickness)));
+  if (!opening.has_leaf) return door.finished();
+  Random random(seed_of(scene.seed, "door " + std::to_string(hole.opening)));
+  const float width = hole.right_m - hole.left_m - 2.0F * kLining - 0.006F;
+  const double open_rad = depth ? opening.open_deg * std::numbers::pi / 180.0 : 0.0;
+  door.add(make_leaf(width, hole.top_m - kLining - 0.018F, random),
+           placed({-0.004F, hole.left_m + kLining + 0.003F, 0.012F}, -open_rad));
+  return door.finished();
+}
+
+}  // namespace
+
 void add_doors(Assembly& parts, const SceneDescription& scene, const std::vector<Wall>& walls) {
   std::vector<const Wall*> first_of(scene.doors.size(), nullptr);
   for (const Wall& wall : walls) {
@@ -119,18 +139,7 @@ void add_doors(Assembly& parts, const SceneDescription& scene, const std::vector
   for (const Wall& wall : walls) {
     for (const Hole& hole : wall.holes) {
       if (!hole.is_door || first_of[hole.opening] != &wall) continue;
-      const std::optional<float> depth = depth_through(wall, hole, walls);
-      Assembly door;
-      add_lining(door, hole, depth.value_or(static_cast<float>(kWallThickness)));
-      Random random(seed_of(scene.seed, "door " + std::to_string(hole.opening)));
-      const float width = hole.right_m - hole.left_m - 2.0F * kLining - 0.006F;
-      const double open_rad =
-          depth ? scene.doors[hole.opening].open_deg * std::numbers::pi / 180.0 : 0.0;
-      if (scene.doors[hole.opening].has_leaf) {
-        door.add(make_leaf(width, hole.top_m - kLining - 0.018F, random),
-                 placed({-0.004F, hole.left_m + kLining + 0.003F, 0.012F}, -open_rad));
-      }
-      parts.add(door.finished(), wall.T_world_wall);
+      parts.add(make_door(scene, hole, depth_through(wall, hole, walls)), wall.T_world_wall);
     }
   }
 }

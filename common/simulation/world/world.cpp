@@ -163,9 +163,8 @@ void World::pose_body(std::size_t body,
 SE3 World::T_world_object(const std::string& name, double time_s) const {
   const Standing& object = objects_.at(name);
   if (object.is_taken_by_people) return choreography_.T_world_object(name, time_s);
-  const SE3 T_support_object = object.T_support_object_at(time_s);
-  if (object.on.empty()) return T_support_object;
-  return T_world_object(object.on, time_s) * T_support_object;
+  if (object.on.empty()) return object.T_support_object_at(time_s);
+  return T_world_object(object.on, time_s) * object.T_support_object_at(time_s);
 }
 
 SE3 World::Standing::T_support_object_at(double time_s) const {
