@@ -37,7 +37,7 @@ class EvalDynamic : public ::testing::Test {
 
   /// The sequence without what tells the truth.
   static std::string plain() {
-    const std::string copy = path("plain");
+    std::string copy = path("plain");
     if (std::filesystem::exists(copy)) return copy;
     std::filesystem::copy(crowd(), copy, std::filesystem::copy_options::recursive);
     std::filesystem::remove_all(copy + "/mask");

@@ -88,7 +88,7 @@ std::string verdict_cell(const SequenceRuns& /*sequence*/, const MethodRun& run)
 
 /// The error and how many times that with masks in time it is.
 std::string variant_cell(const SequenceRuns& sequence, const MethodRun& run) {
-  const std::string figure = ate_cell(sequence, run);
+  std::string figure = ate_cell(sequence, run);
   const MethodRun* in_time = find_run(sequence.methods, "full");
   if (in_time == nullptr || !in_time->accuracy || !run.accuracy) return figure;
   const double reference = in_time->accuracy->ate_m.rmse;
@@ -122,14 +122,20 @@ std::string runs_table(const MethodsReport& report) {
                     "recall",      "precision"};
   std::vector<Row> rows{heading};
   for (const SequenceRuns& sequence : report.sequences) {
-    for (const auto* runs : {&sequence.methods, &sequence.variants}) {
-      for (const MethodRun& run : *runs) {
-        rows.push_back(run_row(sequence, run));
-        rows.back().resize(heading.size());
-      }
+    for (const MethodRun* run : sequence.all()) {
+      rows.push_back(run_row(sequence, *run));
+      rows.back().resize(heading.size());
     }
   }
   return markdown_table(rows);
+}
+
+Row kinds_row(const std::string& sequence, const MethodRun& run) {
+  Row row{sequence, run.name};
+  for (const Judged& kind : run.verdicts->kinds) {
+    row.push_back(fixed(per_frame(kind.kept, run.verdicts->frames), 1));
+  }
+  return row;
 }
 
 /// The paper's Table 1, as a mean over all frames.
@@ -139,12 +145,7 @@ std::string kinds_table(const MethodsReport& report) {
   std::vector<Row> rows{heading};
   for (const SequenceRuns& sequence : report.sequences) {
     for (const MethodRun& run : sequence.methods) {
-      if (!run.verdicts) continue;
-      Row row{sequence.name, run.name};
-      for (const Judged& kind : run.verdicts->kinds) {
-        row.push_back(fixed(per_frame(kind.kept, run.verdicts->frames), 1));
-      }
-      rows.push_back(std::move(row));
+      if (run.verdicts) rows.push_back(kinds_row(sequence.name, run));
     }
   }
   if (rows.size() == 1) return "No sequence tells what moves in it.\n";
@@ -197,14 +198,20 @@ json run_json(const SequenceRuns& sequence, const MethodRun& run) {
 
 }  // namespace
 
+std::vector<const MethodRun*> SequenceRuns::all() const {
+  std::vector<const MethodRun*> runs;
+  runs.reserve(methods.size() + variants.size());
+  for (const MethodRun& run : methods) runs.push_back(&run);
+  for (const MethodRun& run : variants) runs.push_back(&run);
+  return runs;
+}
+
 std::vector<std::string> MethodsReport::problems() const {
   std::vector<std::string> found;
   for (const SequenceRuns& sequence : sequences) {
-    for (const auto* runs : {&sequence.methods, &sequence.variants}) {
-      for (const MethodRun& run : *runs) {
-        if (run.problem.empty()) continue;
-        found.push_back(sequence.name + ", " + run.name + ": " + run.problem);
-      }
+    for (const MethodRun* run : sequence.all()) {
+      if (run->problem.empty()) continue;
+      found.push_back(sequence.name + ", " + run->name + ": " + run->problem);
     }
   }
   return found;

@@ -26,6 +26,9 @@ struct SequenceRuns {
   std::string folder;
   std::vector<MethodRun> methods;
   std::vector<MethodRun> variants;  ///< of method "full", with masks that are worse
+
+  /// Both, the methods first.
+  [[nodiscard]] std::vector<const MethodRun*> all() const;
 };
 
 /// All that `tsgctl report methods` found.

@@ -80,6 +80,7 @@ void MethodsRunner::run(const SequenceRuns& sequence,
         on_progress_({title, done, total});
       });
   std::vector<double> tracking_ms;
+  tracking_ms.reserve(run.bench.frames.size());
   for (const BenchFrame& frame : run.bench.frames) tracking_ms.push_back(frame.tracking_ms);
   result.frames = run.bench.frames.size();
   result.frames_lost = run.frames_lost();
@@ -92,6 +93,7 @@ void MethodsRunner::run(const SequenceRuns& sequence,
 
 std::vector<std::string> sequence_names(const std::vector<fs::path>& folders) {
   std::vector<std::string> names;
+  names.reserve(folders.size());
   for (const fs::path& folder : folders) names.push_back(named(folder).filename().string());
   const std::vector<std::string> own = names;
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -152,6 +152,21 @@ json target_json(std::optional<double> value, double target) {
   return {{"target", target}, {"met", value ? json(*value >= target) : json(nullptr)}};
 }
 
+std::string csv_line(const FrameScore& score) {
+  std::ostringstream line;
+  const auto share = [](std::optional<double> value) { return value ? fixed(*value, 4) : ""; };
+  const VerdictCounts counts = score.away_from_edges();
+  line << score.seq << ',' << fixed(to_seconds(score.stamp_ns), 6) << ',' << score.is_tracked << ','
+       << share(counts.recall()) << ',' << share(counts.precision());
+  for (const VerdictCounts* place : {&counts, &score.at_edge}) {
+    for (const Judged& judged : place->by_state)
+      line << ',' << judged.removed << ',' << judged.kept;
+  }
+  for (const Judged& kind : score.kinds) line << ',' << kind.kept;
+  line << '\n';
+  return line.str();
+}
+
 }  // namespace
 
 double per_frame(std::uint64_t count, std::size_t frames) {
@@ -214,19 +229,7 @@ std::string to_csv(const std::vector<FrameScore>& scores) {
   }
   for (const char* kind : kKindKeys) text << ',' << kind << "_left";
   text << '\n';
-  const auto share = [](std::optional<double> value) { return value ? fixed(*value, 4) : ""; };
-  for (const FrameScore& score : scores) {
-    const VerdictCounts counts = score.away_from_edges();
-    text << score.seq << ',' << fixed(to_seconds(score.stamp_ns), 6) << ',' << score.is_tracked
-         << ',' << share(counts.recall()) << ',' << share(counts.precision());
-    for (const VerdictCounts& place : {counts, score.at_edge}) {
-      for (const Judged& judged : place.by_state) {
-        text << ',' << judged.removed << ',' << judged.kept;
-      }
-    }
-    for (const Judged& kind : score.kinds) text << ',' << kind.kept;
-    text << '\n';
-  }
+  for (const FrameScore& score : scores) text << csv_line(score);
   return text.str();
 }
 
