@@ -1,8 +1,10 @@
 #include "services/slam/lib/pose_finder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "services/slam/lib/motion_prior.hpp"
 #include "services/slam/lib/pnp.hpp"
 #include "services/slam/lib/surface_prior.hpp"
 #include "services/slam/lib/view_check.hpp"
@@ -17,10 +19,15 @@ constexpr double kSurfaceRadius = 12.0;          // pixels: after a first pose f
 constexpr double kKeyframeRadius = 10.0;         // pixels: after a first pose from a keyframe
 constexpr int kEnoughMatches = 3;                // times min_inliers; fewer: search on more widely
 constexpr std::size_t kKeyframesPerAttempt = 4;  // when lost; bounds the time of a frame
+constexpr double kShaky = 0.005;                 // metres or radians: the view leaves much open
 constexpr double kMaxSigma = 0.02;               // metres or radians: how uncertain a pose may be
 constexpr std::int64_t kMaxSurfaceGapNs = 2'000'000'000;
 constexpr int kMinCells = 4;               // of 16 that matches must spread over where all was lost
 constexpr double kMaxContradiction = 0.2;  // things may have been moved since, a loop may wait
+
+double largest_sigma(const PoseEstimate& estimate) {
+  return std::sqrt(estimate.covariance.diagonal().maxCoeff());
+}
 
 }  // namespace
 
@@ -136,22 +143,28 @@ bool PoseFinder::refine(const PoseQuery& query, Fix& fix) const {
     fix.matches.drop_unmapped();
   }
   begin(TrackingStage::kOptimise);
-  const PoseEstimate estimate = fix.matches.optimise(model_, fix.T_camera_world, fix.prior);
+  PoseEstimate estimate = fix.matches.optimise(model_, fix.T_camera_world, fix.prior);
+  if (fix.prior.information.isZero() && largest_sigma(estimate) > kShaky &&
+      agrees_with_motion(query.motion, estimate)) {
+    estimate = fix.matches.optimise(model_, estimate.T_camera_world, query.motion);
+  }
   fix.T_camera_world = estimate.T_camera_world;
   fix.inliers = estimate.inliers;
   fix.covariance = estimate.covariance;
   return is_certain(fix, estimate);
 }
 
+/// Few matches that leave a freedom besides; few that hold the pose are better than surfaces.
 bool PoseFinder::is_weak(const Fix& fix) const {
-  return fix.inliers < kEnoughMatches * config_.tracker.min_inliers;
+  const bool few = fix.inliers < kEnoughMatches * config_.tracker.min_inliers;
+  return few && !(fix.covariance.diagonal().maxCoeff() < kMaxSigma * kMaxSigma);
 }
 
 /// Where surfaces hold the pose too, fewer corners do, if together they leave no freedom.
 bool PoseFinder::is_certain(const Fix& fix, const PoseEstimate& estimate) const {
   if (fix.inliers >= config_.tracker.min_inliers) return true;
   if (fix.prior.information.isZero() || fix.inliers < config_.tracker.min_inliers / 3) return false;
-  return estimate.covariance.diagonal().maxCoeff() < kMaxSigma * kMaxSigma;
+  return largest_sigma(estimate) < kMaxSigma;
 }
 
 }  // namespace tsg

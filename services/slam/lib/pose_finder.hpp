@@ -25,6 +25,7 @@ struct PoseQuery {
   const LocalMapSnapshot& map;
   const TrackedFrame* last;  ///< tracked before, its pose in `map`; null: never yet in this map
   SE3 T_predicted_world;     ///< camera from world, by the motion until then
+  PosePrior motion = {};     ///< the same, with how far it can be trusted; no weight where lost
   bool is_lost = false;      ///< not tracked since `last`, or never: only the map can tell
 };
 

@@ -5,10 +5,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include "common/core/time.hpp"
 #include "services/slam/lib/dynamic/dynamic_filter.hpp"
 #include "services/slam/lib/dynamic/static_features.hpp"
 #include "services/slam/lib/feature_extractor.hpp"
 #include "services/slam/lib/keyframe_policy.hpp"
+#include "services/slam/lib/motion_prior.hpp"
 #include "services/slam/lib/observation_model.hpp"
 #include "services/slam/lib/pose_finder.hpp"
 
@@ -102,6 +104,7 @@ struct Tracker::Impl {
   std::int64_t lost_since_ns = 0;
   MapPart part = 0;  ///< that `last` is in
   std::optional<TrackedFrame> last;
+  Matrix6d covariance = Matrix6d::Zero();        ///< of the pose of `last`
   Vector6d twist_per_second = Vector6d::Zero();  ///< log of T_last_now for one second
   KeyframeId next_keyframe = 0;
   std::uint64_t corrections = 0;  ///< of the map that `last` is in
@@ -187,16 +190,21 @@ void Tracker::Impl::follow_map(const LocalMapSnapshot& map) {
 
 SE3 Tracker::Impl::predict(std::int64_t stamp_ns) const {
   if (!last || lost) return last ? last->T_world_camera : SE3();
-  const double seconds = static_cast<double>(stamp_ns - last->features->stamp_ns) * 1e-9;
+  const double seconds = to_seconds(stamp_ns - last->features->stamp_ns);
   return last->T_world_camera * SE3::exp(twist_per_second * seconds);
 }
 
 PoseQuery Tracker::Impl::query(const Features& features, const LocalMapSnapshot& map) const {
-  return {.features = features,
-          .map = map,
-          .last = last ? &*last : nullptr,
-          .T_predicted_world = predict(features.stamp_ns).inverse(),
-          .is_lost = lost};
+  PoseQuery query{.features = features,
+                  .map = map,
+                  .last = last ? &*last : nullptr,
+                  .T_predicted_world = predict(features.stamp_ns).inverse(),
+                  .is_lost = lost};
+  if (last && !lost) {
+    query.motion = prior_by_motion(query.T_predicted_world, covariance,
+                                   to_seconds(features.stamp_ns - last->features->stamp_ns));
+  }
+  return query;
 }
 
 /// A pose by what never moves, then what moves by that pose (paper, section 4.3).
@@ -264,6 +272,7 @@ void Tracker::Impl::accept(const std::shared_ptr<const Features>& features,
   result.reference = last->reference;
   result.T_reference_camera = last->T_reference_camera;
   result.inliers = fix.inliers;
+  covariance = fix.covariance;
   result.covariance = fix.covariance;
   propose_keyframe(map, fix.inliers, result);
 }
