@@ -8,7 +8,7 @@ std::vector<PointId> add_points_from_depth(Map& map,
   std::vector<PointId> added;
   for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
     const Feature& feature = keyframe.features->items[i];
-    if (keyframe.points[i] != kNoPoint || !feature.has_depth()) continue;
+    if (keyframe.points[i] != kNoPoint || keyframe.banned[i] || !feature.has_depth()) continue;
     const Eigen::Vector3d p_camera =
         model.camera().unproject(feature.pixel.cast<double>(), 1.0 / feature.inverse_depth);
     const PointId id =

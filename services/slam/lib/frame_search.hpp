@@ -12,7 +12,8 @@ namespace tsg {
 /// A frame whose pose is known.
 struct TrackedFrame {
   std::shared_ptr<const Features> features;
-  std::vector<PointId> points;  ///< per feature, or kNoPoint
+  std::vector<PointId> points;      ///< per feature, or kNoPoint
+  std::vector<bool> doubtful = {};  ///< per feature: not seen to stand still; empty: none is
   KeyframeId reference = 0;
   SE3 T_reference_camera = {};
   SE3 T_world_camera;

@@ -24,6 +24,7 @@ struct KeyframeCandidate {
   SE3 T_reference_camera = {};
   std::shared_ptr<const Features> features;
   std::vector<PointId> points;                ///< per feature: the map point it shows, or kNoPoint
+  std::vector<bool> doubtful = {};            ///< per feature: not seen to stand still; empty: none
   std::vector<PointSighting> sightings = {};  ///< since the previous candidate
 };
 

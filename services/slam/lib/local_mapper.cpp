@@ -146,6 +146,15 @@ LocalMapper::~LocalMapper() = default;
 LocalMapper::LocalMapper(LocalMapper&&) noexcept = default;
 LocalMapper& LocalMapper::operator=(LocalMapper&&) noexcept = default;
 
+/// What was not seen to stand still yet is left to a later keyframe, unless the map has it already.
+std::vector<bool> banned_at_first(const KeyframeCandidate& candidate) {
+  std::vector<bool> banned(candidate.features->size(), false);
+  for (std::size_t i = 0; i < candidate.doubtful.size(); ++i) {
+    banned[i] = candidate.doubtful[i] && candidate.points[i] == kNoPoint;
+  }
+  return banned;
+}
+
 void LocalMapper::insert(KeyframeCandidate&& candidate) {
   impl_->published.reset();
   impl_->recalled.clear();
@@ -163,7 +172,7 @@ void LocalMapper::insert(KeyframeCandidate&& candidate) {
                                .features = candidate.features,
                                .T_world_camera = T_world_reference * candidate.T_reference_camera,
                                .points = std::vector<PointId>(candidate.features->size(), kNoPoint),
-                               .banned = std::vector<bool>(candidate.features->size(), false)});
+                               .banned = banned_at_first(candidate)});
   impl_->newest = candidate.id;
   impl_->note_sightings(candidate.sightings);
   impl_->link_tracked_points(candidate, keyframe);

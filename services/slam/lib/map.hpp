@@ -41,7 +41,8 @@ struct Keyframe {
   std::shared_ptr<const Features> features;
   SE3 T_world_camera;
   std::vector<PointId> points;  ///< per feature, or kNoPoint
-  std::vector<bool> banned;     ///< per feature: lies on something dynamic, shows no map point
+  std::vector<bool>
+      banned;  ///< per feature: on something that moves or may move, shows no map point
 };
 
 /// How many map points a keyframe shares with another.

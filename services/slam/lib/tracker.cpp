@@ -55,6 +55,7 @@ std::shared_ptr<const FrameVerdicts> report(const Features& features,
 /// What is known of a frame before the map is asked.
 struct FirstLook {
   std::shared_ptr<const Features> features;  ///< without those that move
+  std::vector<bool> doubtful;                ///< of these: not seen to stand still; empty: none
   std::optional<Fix> fix;                    ///< by the last frame alone
 };
 
@@ -82,7 +83,7 @@ struct Tracker::Impl {
 
   void count_sightings(const Fix& fix);
 
-  void accept(const std::shared_ptr<const Features>& features,
+  void accept(const FirstLook& first,
               const LocalMapSnapshot& map,
               const Fix& fix,
               TrackResult& result);
@@ -211,7 +212,7 @@ PoseQuery Tracker::Impl::query(const Features& features, const LocalMapSnapshot&
 FirstLook Tracker::Impl::look(const std::shared_ptr<const Features>& features,
                               const LocalMapSnapshot& map,
                               TrackResult& result) {
-  FirstLook first{.features = features, .fix = std::nullopt};
+  FirstLook first{.features = features, .doubtful = {}, .fix = std::nullopt};
   const bool needs_pose = config.dynamic_filter.method == DynamicMethod::kFull;
   if (needs_pose) {
     first.fix = finder.find_first(query(*features, map), MatchedClasses::kStatic);
@@ -219,8 +220,9 @@ FirstLook Tracker::Impl::look(const std::shared_ptr<const Features>& features,
   }
   const SE3 T_world_camera = first.fix ? first.fix->T_camera_world.inverse() : SE3();
   Judgement judgement = filter.judge_by_motion(*features, first.fix ? &T_world_camera : nullptr);
-  const StaticFeatures kept = keep_static(features, judgement, model.camera());
+  StaticFeatures kept = keep_static(features, judgement, model.camera());
   first.features = kept.features;
+  first.doubtful = std::move(kept.doubtful);
   result.features = first.features->counts;
   result.verdicts = report(*features, extractor.left_out(), std::move(judgement));
   if (first.fix) first.fix->matches = first.fix->matches.onto(*kept.features, kept.new_index);
@@ -239,14 +241,16 @@ void Tracker::Impl::count_sightings(const Fix& fix) {
   }
 }
 
-void Tracker::Impl::accept(const std::shared_ptr<const Features>& features,
+void Tracker::Impl::accept(const FirstLook& first,
                            const LocalMapSnapshot& map,
                            const Fix& fix,
                            TrackResult& result) {
   if (on_stage) on_stage(TrackingStage::kDecide);
   count_sightings(fix);
-  TrackedFrame now{.features = features,
+  const std::int64_t stamp_ns = first.features->stamp_ns;
+  TrackedFrame now{.features = first.features,
                    .points = fix.matches.points(),
+                   .doubtful = first.doubtful,
                    .T_world_camera = fix.T_camera_world.inverse()};
   now.reference =
       map.keyframe_sharing_most(now.points).value_or(last ? last->reference : map.newest);
@@ -256,8 +260,7 @@ void Tracker::Impl::accept(const std::shared_ptr<const Features>& features,
   now.T_reference_camera = T_world_reference.inverse() * now.T_world_camera;
   twist_per_second = Vector6d::Zero();
   if (!lost) {
-    const auto since_last_ns = static_cast<double>(features->stamp_ns - last->features->stamp_ns);
-    const double seconds = since_last_ns * 1e-9;
+    const double seconds = to_seconds(stamp_ns - last->features->stamp_ns);
     result.T_previous_camera = last->T_world_camera.inverse() * now.T_world_camera;
     if (seconds > 0.0) twist_per_second = result.T_previous_camera->log() / seconds;
   }
@@ -307,7 +310,8 @@ KeyframeCandidate Tracker::Impl::make_candidate() {
                               .reference = last->reference,
                               .T_reference_camera = last->T_reference_camera,
                               .features = last->features,
-                              .points = last->points};
+                              .points = last->points,
+                              .doubtful = last->doubtful};
   candidate.sightings = sorted(sightings);
   sightings.clear();
   return candidate;
@@ -358,7 +362,7 @@ TrackResult Tracker::track(const std::shared_ptr<const Features>& features,
     return result;
   }
   result.matches = fix->matches.count();
-  impl_->accept(first.features, map, *fix, result);
+  impl_->accept(first, map, *fix, result);
   if (impl_->filter.has_new_mask() && !impl_->config.tracker.localisation_only) {
     for (const SnapshotPoint& point : map.points) {
       if (impl_->filter.was_dynamic(point.position)) result.dynamic_points.push_back(point.id);

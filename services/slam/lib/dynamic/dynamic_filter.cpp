@@ -20,6 +20,8 @@ constexpr double kUnknownDepth = 2.0;  // metres, for masks of frames that were 
 constexpr double kOnSurface = 0.1;     // metres; what lies deeper is not the thing
 constexpr float kMinDepth = 0.1F;      // metres
 constexpr int kMinAppearedCells = 24;  // specks are noise at the end of range
+constexpr int kDoubtCells = 40;        // half a metre at 2 m: what one thing may hang together over
+constexpr float kFarthest = 100.0F;    // metres: any depth
 constexpr int kRimCells = 2;           // around what appeared: silhouettes are left to it
 /// How long ago depth is compared with: fast things show in the first, slow ones in the last.
 constexpr std::array<std::int64_t, 3> kDepthAges{200'000'000, 700'000'000, 1'200'000'000};
@@ -162,6 +164,7 @@ Judgement DynamicFilter::judge_by_epipolar(const Features& features) const {
   CouplingVerdicts verdicts =
       judge_by_epipolar_lines(*previous->features, features, config_.method, {});
   return {.is_dynamic = std::move(verdicts.is_dynamic),
+          .is_doubtful = {},
           .epipolar_px = std::move(verdicts.epipolar_px),
           .dynamic_cells = {},
           .instances = {}};
@@ -173,13 +176,35 @@ Judgement DynamicFilter::judge_by_depth(const Features& features, const SE3& T_w
   if (!located_.empty()) weigh_tracks(features, motion, evidence);
   Judgement judgement;
   judgement.is_dynamic = moving_in_company(features, motion);
-  judgement.dynamic_cells = moving_cells(evidence);
+  cv::Mat unnamed = appeared_regions(evidence, kMinAppearedCells);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (judgement.is_dynamic[i]) unnamed.at<std::uint8_t>(cell_of(features.items[i])) = 255;
+  }
+  judgement.dynamic_cells = moving_cells(unnamed);
+  judgement.is_doubtful = doubt(features, motion, std::move(unnamed));
   for (std::size_t i = 0; i < features.size(); ++i) {
     const cv::Point cell = cell_of(features.items[i]);
     if (judgement.dynamic_cells.at<std::uint8_t>(cell) != 0) judgement.is_dynamic[i] = true;
   }
   judgement.instances = states();
   return judgement;
+}
+
+/// What hangs together with something that moves may be a part of it, as long as it was not seen to
+/// stand still: the side of a cart that has just come into view.
+std::vector<bool> DynamicFilter::doubt(const Features& features,
+                                       const std::vector<FeatureMotion>& motion,
+                                       cv::Mat moving) const {
+  if (!located_.empty()) moving.setTo(0, located_ != 0);
+  if (cv::countNonZero(moving) < kMinAppearedCells) return {};
+  grow_over_surface(past_.now().depth,
+                    {.nearest = kMinDepth, .farthest = kFarthest, .steps = kDoubtCells}, moving);
+  std::vector<bool> doubtful(features.size());
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    doubtful[i] = motion[i].motion != Motion::kStill &&
+                  moving.at<std::uint8_t>(cell_of(features.items[i])) != 0;
+  }
+  return doubtful;
 }
 
 cv::Mat DynamicFilter::compare_with_past(const SE3& T_world_camera) const {
@@ -231,10 +256,10 @@ void DynamicFilter::weigh_tracks(const Features& features,
 }
 
 /// Instances that move, and what has come to where there was nothing.
-cv::Mat DynamicFilter::moving_cells(const cv::Mat& evidence) const {
-  const cv::Mat& depth = past_.now().depth;
-  cv::Mat moving = appeared_regions(evidence, kMinAppearedCells);
-  grow_over_surface(depth, {.nearest = kMinDepth, .farthest = 100.0F, .steps = kRimCells}, moving);
+cv::Mat DynamicFilter::moving_cells(const cv::Mat& unnamed) const {
+  cv::Mat moving = unnamed.clone();
+  grow_over_surface(past_.now().depth,
+                    {.nearest = kMinDepth, .farthest = kFarthest, .steps = kRimCells}, moving);
   for (std::size_t i = 0; !located_.empty() && i < tracks_.tracks().size(); ++i) {
     if (tracks_.tracks()[i].is_moving()) moving |= located_ == static_cast<double>(i + 1);
   }

@@ -23,6 +23,7 @@ namespace tsg {
 /// Which features of a frame move.
 struct Judgement {
   std::vector<bool> is_dynamic;          ///< per feature; empty: none is
+  std::vector<bool> is_doubtful;         ///< per feature: not seen to stand still; empty: none
   std::vector<float> epipolar_px;        ///< per feature, negative where untested; empty: no test
   cv::Mat dynamic_cells;                 ///< CV_8UC1 of cells, 255 = moves; empty: none does
   std::vector<InstanceState> instances;  ///< all that may move
@@ -81,7 +82,10 @@ class DynamicFilter {
   void weigh_tracks(const Features& features,
                     const std::vector<FeatureMotion>& motion,
                     const cv::Mat& evidence);
-  [[nodiscard]] cv::Mat moving_cells(const cv::Mat& evidence) const;
+  [[nodiscard]] cv::Mat moving_cells(const cv::Mat& unnamed) const;
+  [[nodiscard]] std::vector<bool> doubt(const Features& features,
+                                        const std::vector<FeatureMotion>& motion,
+                                        cv::Mat moving) const;
   [[nodiscard]] std::vector<InstanceState> states() const;
 
   DynamicFilterConfig config_;

@@ -35,7 +35,9 @@ void count_again(Features& features, int left_out) {
 StaticFeatures keep_static(const std::shared_ptr<const Features>& all,
                            const Judgement& judgement,
                            const CameraModel& camera) {
-  StaticFeatures kept{.features = all, .new_index = std::vector<int>(all->size())};
+  StaticFeatures kept{.features = all,
+                      .new_index = std::vector<int>(all->size()),
+                      .doubtful = judgement.is_doubtful};
   std::iota(kept.new_index.begin(), kept.new_index.end(), 0);
   const bool has_cells =
       !judgement.dynamic_cells.empty() && cv::countNonZero(judgement.dynamic_cells) > 0;
@@ -51,7 +53,9 @@ StaticFeatures keep_static(const std::shared_ptr<const Features>& all,
       if (judgement.is_dynamic[i]) continue;
       features->items.push_back(all->items[i]);
       features->descriptors.push_back(all->descriptors[i]);
+      if (!kept.doubtful.empty()) kept.doubtful[features->items.size() - 1] = kept.doubtful[i];
     }
+    if (!kept.doubtful.empty()) kept.doubtful.resize(features->size());
     features->grid = FeatureGrid(features->items, camera.width, camera.height);
     count_again(*features, static_cast<int>(left_out));
   }

@@ -12,6 +12,7 @@ namespace tsg {
 struct StaticFeatures {
   std::shared_ptr<const Features> features;
   std::vector<int> new_index;  ///< of each that was judged; -1 for those left out
+  std::vector<bool> doubtful;  ///< of those that go on: not seen to stand still; empty: none is
 };
 
 /// `all` without what was judged dynamic; its surface too is cleared there. `all` itself where
