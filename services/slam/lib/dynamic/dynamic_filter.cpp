@@ -20,15 +20,15 @@ constexpr double kUnknownDepth = 2.0;  // metres, for masks of frames that were 
 constexpr double kOnSurface = 0.1;     // metres; what lies deeper is not the thing
 constexpr float kMinDepth = 0.1F;      // metres
 constexpr int kMinAppearedCells = 24;  // specks are noise at the end of range
-constexpr int kDoubtCells = 40;        // half a metre at 2 m: what one thing may hang together over
-constexpr float kFarthest = 100.0F;    // metres: any depth
-constexpr int kRimCells = 2;           // around what appeared: silhouettes are left to it
+constexpr std::int64_t kDoubtNs = 1'000'000'000;  // after something nameless was last seen to move
+constexpr float kFarthest = 100.0F;               // metres: any depth
+constexpr int kRimCells = 2;  // around what appeared: silhouettes are left to it
 /// How long ago depth is compared with: fast things show in the first, slow ones in the last.
 constexpr std::array<std::int64_t, 3> kDepthAges{200'000'000, 700'000'000, 1'200'000'000};
-/// How long ago features are compared with, the first that is there: the longer, the more parallax
-/// and the more motion, until looks change.
-constexpr std::array<std::int64_t, 4> kFeatureAges{400'000'000, 270'000'000, 160'000'000,
-                                                   90'000'000};
+/// How long ago features are compared with, the first two that are there: the longer, the more
+/// parallax and the more motion, until looks change.
+constexpr std::array<std::int64_t, 5> kFeatureAges{900'000'000, 400'000'000, 200'000'000,
+                                                   120'000'000, 60'000'000};
 
 cv::Point cell_of(const Feature& feature) {
   return {feature.raw_x / kCellSide, feature.raw_y / kCellSide};
@@ -181,7 +181,7 @@ Judgement DynamicFilter::judge_by_depth(const Features& features, const SE3& T_w
     if (judgement.is_dynamic[i]) unnamed.at<std::uint8_t>(cell_of(features.items[i])) = 255;
   }
   judgement.dynamic_cells = moving_cells(unnamed);
-  judgement.is_doubtful = doubt(features, motion, std::move(unnamed));
+  judgement.is_doubtful = doubt(motion, std::move(unnamed));
   for (std::size_t i = 0; i < features.size(); ++i) {
     const cv::Point cell = cell_of(features.items[i]);
     if (judgement.dynamic_cells.at<std::uint8_t>(cell) != 0) judgement.is_dynamic[i] = true;
@@ -190,20 +190,16 @@ Judgement DynamicFilter::judge_by_depth(const Features& features, const SE3& T_w
   return judgement;
 }
 
-/// What hangs together with something that moves may be a part of it, as long as it was not seen to
-/// stand still: the side of a cart that has just come into view.
-std::vector<bool> DynamicFilter::doubt(const Features& features,
-                                       const std::vector<FeatureMotion>& motion,
-                                       cv::Mat moving) const {
+/// Where something moves that no mask tells of, what was not seen to stand still may be a part of
+/// it: the side of a cart that has just come into view.
+std::vector<bool> DynamicFilter::doubt(const std::vector<FeatureMotion>& motion, cv::Mat moving) {
   if (!located_.empty()) moving.setTo(0, located_ != 0);
-  if (cv::countNonZero(moving) < kMinAppearedCells) return {};
-  grow_over_surface(past_.now().depth,
-                    {.nearest = kMinDepth, .farthest = kFarthest, .steps = kDoubtCells}, moving);
-  std::vector<bool> doubtful(features.size());
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    doubtful[i] = motion[i].motion != Motion::kStill &&
-                  moving.at<std::uint8_t>(cell_of(features.items[i])) != 0;
-  }
+  const std::int64_t now_ns = past_.now().stamp_ns;
+  if (cv::countNonZero(moving) >= kMinAppearedCells) unnamed_seen_ns_ = now_ns;
+  if (!unnamed_seen_ns_ || now_ns - *unnamed_seen_ns_ > kDoubtNs) return {};
+  std::vector<bool> doubtful(motion.size());
+  std::transform(motion.begin(), motion.end(), doubtful.begin(),
+                 [](const FeatureMotion& m) { return m.motion != Motion::kStill; });
   return doubtful;
 }
 
@@ -221,13 +217,20 @@ cv::Mat DynamicFilter::compare_with_past(const SE3& T_world_camera) const {
 
 std::vector<FeatureMotion> DynamicFilter::compare_with_reference(const Features& features,
                                                                  const SE3& T_world_camera) const {
+  std::vector<FeatureMotion> motion(features.size());
+  const PastFrame* used = nullptr;
   for (const std::int64_t age_ns : kFeatureAges) {
     const PastFrame* then = past_.before(age_ns);
-    if (then == nullptr || then->features == nullptr) continue;
-    return compare_features(model_, {features, T_world_camera},
-                            {*then->features, *then->T_world_camera});
+    if (then == nullptr || then->features == nullptr || then == used) continue;
+    const auto found = compare_features(model_, {features, T_world_camera},
+                                        {*then->features, *then->T_world_camera});
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      if (motion[i].motion == Motion::kUnknown) motion[i] = found[i];
+    }
+    if (used != nullptr) break;
+    used = then;
   }
-  return std::vector<FeatureMotion>(features.size());
+  return motion;
 }
 
 void DynamicFilter::weigh_tracks(const Features& features,

@@ -83,9 +83,7 @@ class DynamicFilter {
                     const std::vector<FeatureMotion>& motion,
                     const cv::Mat& evidence);
   [[nodiscard]] cv::Mat moving_cells(const cv::Mat& unnamed) const;
-  [[nodiscard]] std::vector<bool> doubt(const Features& features,
-                                        const std::vector<FeatureMotion>& motion,
-                                        cv::Mat moving) const;
+  [[nodiscard]] std::vector<bool> doubt(const std::vector<FeatureMotion>& motion, cv::Mat moving);
   [[nodiscard]] std::vector<InstanceState> states() const;
 
   DynamicFilterConfig config_;
@@ -97,6 +95,7 @@ class DynamicFilter {
   std::optional<std::uint64_t> mask_seq_;
   cv::Mat mask_dynamic_;  ///< CV_8UC1 of cells, of the latest mask: 255 on dynamic classes
   bool has_new_mask_ = false;
+  std::optional<std::int64_t> unnamed_seen_ns_;  ///< when something moved that no mask told of
 };
 
 }  // namespace tsg
