@@ -109,7 +109,11 @@ endfunction()
 # compiler longest of all files, most of it to optimise (10 s to 7 s each at -O1; with the address
 # sanitizer 15 s to 10 s at -O0).
 function(tsg_compile_quickly)
+  set(optimisation -O1)
+  if(TSG_SANITIZE)
+    set(optimisation -O0)
+  endif()
   foreach(name IN LISTS ARGN)
-    target_compile_options(${name} PRIVATE $<IF:$<BOOL:${TSG_SANITIZE}>,-O0,-O1>)
+    target_compile_options(${name} PRIVATE ${optimisation})
   endforeach()
 endfunction()
