@@ -332,7 +332,7 @@ std::shared_ptr<const Features> Tracker::extract(const RgbdFrame& frame,
   const auto dynamic_pixels =
       impl_->filter.leaves_out_by_class() ? DynamicPixels::kLeaveOut : DynamicPixels::kKeep;
   Features features = impl_->extractor.extract(frame, verdicts, dynamic_pixels);
-  if (!verdicts.empty()) {
+  if (impl_->filter.uses_mask()) {
     features.mask_age_frames = static_cast<int>(frame.seq - mask->frame_seq);
   }
   return std::make_shared<const Features>(std::move(features));

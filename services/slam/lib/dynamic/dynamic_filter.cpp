@@ -70,18 +70,25 @@ cv::Mat DynamicFilter::judge_by_class(const RgbdFrame& frame,
   past_.add({.seq = frame.seq, .stamp_ns = frame.stamp_ns, .depth = depth_of_cells(frame)});
   has_new_mask_ = false;
   located_.release();
-  const bool uses_masks =
+  const bool knows_classes =
       config_.method != DynamicMethod::kNone && config_.method != DynamicMethod::kEpipolar;
-  if (!uses_masks || mask == nullptr || mask->frame_seq > frame.seq) return {};
-  const std::uint64_t age = frame.seq - mask->frame_seq;
-  if (age > static_cast<std::uint64_t>(config_.max_mask_age_frames)) {
-    tracks_.clear();
-    return {};
-  }
-  if (config_.method != DynamicMethod::kFull) return exact_verdicts(*mask, config_);
-  if (take_in(*mask, T_world_camera)) {
-    located_ = tracks_.locate(past_.now(), T_world_camera, age == 0 ? mask : nullptr);
-    return by_place(*mask, frame.colour.size());
+  uses_mask_ =
+      knows_classes && mask != nullptr && mask->frame_seq <= frame.seq &&
+      frame.seq - mask->frame_seq <= static_cast<std::uint64_t>(config_.max_mask_age_frames);
+  if (config_.method == DynamicMethod::kFull) return judge_by_place(frame, mask, T_world_camera);
+  return uses_mask_ ? exact_verdicts(*mask, config_) : cv::Mat();
+}
+
+cv::Mat DynamicFilter::judge_by_place(const RgbdFrame& frame,
+                                      const InstanceSegmentation* mask,
+                                      const SE3& T_world_camera) {
+  if (!uses_mask_) tracks_.drop_named();
+  tracks_.drop_unnamed(past_.now(), T_world_camera);
+  if (!uses_mask_ || take_in(*mask, T_world_camera)) {
+    if (tracks_.tracks().empty()) return {};
+    const bool is_exact = uses_mask_ && mask->frame_seq == frame.seq;
+    located_ = tracks_.locate(past_.now(), T_world_camera, is_exact ? mask : nullptr);
+    return by_place(is_exact ? mask : nullptr, frame.colour.size());
   }
   // Nobody knows from where that mask was seen: it is believed as it is, with room to move.
   const double metres = config_.max_speed_mps * to_seconds(frame.stamp_ns - mask->stamp_ns);
@@ -114,7 +121,7 @@ bool DynamicFilter::take_in(const InstanceSegmentation& mask, const SE3& T_world
 }
 
 /// By where the tracks are, and where the mask is of this very frame by its pixels too.
-cv::Mat DynamicFilter::by_place(const InstanceSegmentation& mask, const cv::Size& size) const {
+cv::Mat DynamicFilter::by_place(const InstanceSegmentation* exact, const cv::Size& size) const {
   cv::Mat table = cv::Mat::zeros(1, 256, CV_8UC1);
   cv::Mat dynamic = cv::Mat::zeros(located_.size(), CV_8UC1);
   for (std::size_t i = 0; i < tracks_.tracks().size(); ++i) {
@@ -125,16 +132,14 @@ cv::Mat DynamicFilter::by_place(const InstanceSegmentation& mask, const cv::Size
   cv::LUT(located_, table, cells);
   dynamic = cells == static_cast<double>(FeatureVerdict::kDynamic);
   // What was carried here may have gone on to where the sensor sees nothing.
-  if (mask.frame_seq != past_.now().seq) add_shadow(past_.now().depth, dynamic);
+  if (exact == nullptr) add_shadow(past_.now().depth, dynamic);
   cells.setTo(static_cast<double>(FeatureVerdict::kDynamic), dynamic);
   cv::Mat verdicts;
   cv::resize(cells, verdicts, {cells.cols * kCellSide, cells.rows * kCellSide}, 0, 0,
              cv::INTER_NEAREST);
   cv::copyMakeBorder(verdicts, verdicts, 0, size.height - verdicts.rows, 0,
                      size.width - verdicts.cols, cv::BORDER_REPLICATE);
-  if (mask.frame_seq == past_.now().seq) {
-    cv::max(verdicts, verdicts_of_pixels(mask, config_), verdicts);
-  }
+  if (exact != nullptr) cv::max(verdicts, verdicts_of_pixels(*exact, config_), verdicts);
   // A corner beside a silhouette is half of what moves, whatever its depth.
   dilate_dynamic(verdicts, static_cast<int>(std::lround(config_.dilation_px)));
   return verdicts;
@@ -181,6 +186,8 @@ Judgement DynamicFilter::judge_by_depth(const Features& features, const SE3& T_w
     if (judgement.is_dynamic[i]) unnamed.at<std::uint8_t>(cell_of(features.items[i])) = 255;
   }
   judgement.dynamic_cells = moving_cells(unnamed);
+  if (located_.empty()) located_ = cv::Mat::zeros(unnamed.size(), CV_8UC1);
+  tracks_.take_in_unnamed(unnamed, located_, past_.now(), T_world_camera);
   judgement.is_doubtful = doubt(motion, std::move(unnamed));
   for (std::size_t i = 0; i < features.size(); ++i) {
     const cv::Point cell = cell_of(features.items[i]);

@@ -68,12 +68,18 @@ class DynamicFilter {
   /// where the depth or the pose of that frame is not known.
   [[nodiscard]] bool was_dynamic(const Eigen::Vector3d& p_world) const;
 
+  /// Whether a mask had a part in what judge_by_class() said.
+  [[nodiscard]] bool uses_mask() const { return uses_mask_; }
+
   /// True for the one frame that brought a mask not seen before.
   [[nodiscard]] bool has_new_mask() const { return has_new_mask_; }
 
  private:
+  [[nodiscard]] cv::Mat judge_by_place(const RgbdFrame& frame,
+                                       const InstanceSegmentation* mask,
+                                       const SE3& T_world_camera);
   [[nodiscard]] bool take_in(const InstanceSegmentation& mask, const SE3& T_world_camera);
-  [[nodiscard]] cv::Mat by_place(const InstanceSegmentation& mask, const cv::Size& size) const;
+  [[nodiscard]] cv::Mat by_place(const InstanceSegmentation* exact, const cv::Size& size) const;
   [[nodiscard]] Judgement judge_by_epipolar(const Features& features) const;
   [[nodiscard]] Judgement judge_by_depth(const Features& features, const SE3& T_world_camera);
   [[nodiscard]] cv::Mat compare_with_past(const SE3& T_world_camera) const;
@@ -95,6 +101,7 @@ class DynamicFilter {
   std::optional<std::uint64_t> mask_seq_;
   cv::Mat mask_dynamic_;  ///< CV_8UC1 of cells, of the latest mask: 255 on dynamic classes
   bool has_new_mask_ = false;
+  bool uses_mask_ = false;
   std::optional<std::int64_t> unnamed_seen_ns_;  ///< when something moved that no mask told of
 };
 

@@ -24,6 +24,12 @@ constexpr double kMinSupport =
 constexpr double kCutShort = 0.5;  // share of its border that runs across a surface
 constexpr int kEdgeCells = 3;      // masks are cut up to 10 pixels short
 constexpr float kMinDepth = 0.1F;  // metres
+constexpr float kFarthest = 100.0F;  // metres: any depth
+constexpr int kBodyCells = 6;        // around what was seen to move: the same thing, mostly
+constexpr int kMinUnnamedCells = 40;
+constexpr std::size_t kMaxTracks = 200;             // labels of cells have 8 bits
+constexpr std::int64_t kAtRestNs = 20'000'000'000;  // then what had moved is furniture again
+constexpr std::int64_t kOutOfViewNs = 5'000'000'000;
 
 Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d median;
@@ -82,7 +88,7 @@ void InstanceTracks::take_in(const InstanceSegmentation& mask,
                              const SE3& T_world_camera) {
   std::vector<InstanceTrack> seen = measure(mask, frame, T_world_camera);
   track_of_label_.assign(seen.size(), -1);
-  for (InstanceTrack& track : tracks_) ++track.missed_masks;
+  for (InstanceTrack& track : tracks_) track.missed_masks += track.is_named() ? 1 : 0;
   std::vector<bool> taken(tracks_.size(), false);
   for (std::size_t label = 0; label < seen.size(); ++label) {
     if (seen[label].points.size() < kMinPoints) continue;
@@ -157,7 +163,8 @@ void InstanceTracks::drop_lost(const PastFrame& frame, const SE3& T_world_camera
   std::size_t kept = 0;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (tracks_[i].missed_masks > kMaxMissedMasks) continue;
-    if (tracks_[i].missed_masks > 0 && support(tracks_[i], frame, T_camera_world) < kMinSupport)
+    if (tracks_[i].missed_masks > 0 &&
+        support(tracks_[i], frame, T_camera_world).share() < kMinSupport)
       continue;
     new_index[i] = static_cast<int>(kept);
     if (kept != i) tracks_[kept] = std::move(tracks_[i]);
@@ -169,18 +176,16 @@ void InstanceTracks::drop_lost(const PastFrame& frame, const SE3& T_world_camera
   }
 }
 
-/// Share of a track's cells in view where the sensor sees something at about its depth.
-double InstanceTracks::support(const InstanceTrack& track,
-                               const PastFrame& frame,
-                               const SE3& T_camera_world) const {
-  int in_view = 0;
-  int there = 0;
+InstanceTracks::Support InstanceTracks::support(const InstanceTrack& track,
+                                                const PastFrame& frame,
+                                                const SE3& T_camera_world) const {
+  Support support;
   for_each_cell(track, frame.stamp_ns, T_camera_world, [&](const cv::Point& cell, double depth) {
     const double seen = frame.depth.at<float>(cell);
-    ++in_view;
-    if (seen > 0.0 && std::abs(seen - depth) <= config_.depth_tolerance_m) ++there;
+    ++support.in_view;
+    if (seen > 0.0 && std::abs(seen - depth) <= config_.depth_tolerance_m) ++support.there;
   });
-  return in_view == 0 ? 0.0 : static_cast<double>(there) / in_view;
+  return support;
 }
 
 template <typename Visit>
@@ -189,7 +194,10 @@ void InstanceTracks::for_each_cell(const InstanceTrack& track,
                                    const SE3& T_camera_world,
                                    const Visit& visit) const {
   const Eigen::Matrix3d R = T_camera_world.rotation_matrix();
-  const Eigen::Vector3d shift = to_seconds(stamp_ns - track.stamp_ns) * track.v_world;
+  // Without a name it is seen while it moves only: later it stands where it was seen last.
+  const bool goes_on = track.is_named() || track.is_moving();
+  const double seconds = goes_on ? to_seconds(stamp_ns - track.stamp_ns) : 0.0;
+  const Eigen::Vector3d shift = seconds * track.v_world;
   const Eigen::Vector3d t = R * shift + T_camera_world.translation();
   for (const Eigen::Vector3d& point : track.points) {
     const Eigen::Vector3d p_camera = R * point + t;
@@ -200,6 +208,68 @@ void InstanceTracks::for_each_cell(const InstanceTrack& track,
   }
 }
 
+void InstanceTracks::take_in_unnamed(const cv::Mat& moving,
+                                     const cv::Mat& located,
+                                     const PastFrame& frame,
+                                     const SE3& T_world_camera) {
+  cv::Mat regions = moving.clone();
+  grow_over_surface(frame.depth, {.nearest = kMinDepth, .farthest = kFarthest, .steps = kBodyCells},
+                    regions);
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (tracks_[i].is_named()) regions.setTo(0, located == static_cast<double>(i + 1));
+  }
+  cv::Mat labels;
+  const int count = cv::connectedComponents(regions, labels, 8, CV_32S);
+  for (int label = 1; label < count && tracks_.size() < kMaxTracks; ++label) {
+    cv::Mat region = labels == label;
+    if (cv::countNonZero(region) < kMinUnnamedCells) continue;
+    const std::size_t i = find_unnamed(region, located);
+    region |= located == static_cast<double>(i + 1);
+    InstanceTrack seen;
+    seen.stamp_ns = frame.stamp_ns;
+    for (int y = 0; y < region.rows; ++y) {
+      for (int x = 0; x < region.cols; ++x) {
+        const float depth = frame.depth.at<float>(y, x);
+        if (region.at<std::uint8_t>(y, x) == 0 || depth < kMinDepth) continue;
+        seen.points.push_back(T_world_camera * camera_.unproject({x, y}, depth));
+      }
+    }
+    if (seen.points.size() >= kMinPoints) follow(tracks_[i], std::move(seen));
+  }
+  std::erase_if(tracks_, [](const InstanceTrack& track) { return track.points.empty(); });
+}
+
+/// The nameless track that `region` shows most of; a new one where it shows none.
+std::size_t InstanceTracks::find_unnamed(const cv::Mat& region, const cv::Mat& located) {
+  std::size_t best = tracks_.size();
+  int most = 0;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (tracks_[i].is_named()) continue;
+    const int overlap = cv::countNonZero(region & (located == static_cast<double>(i + 1)));
+    if (overlap <= most) continue;
+    most = overlap;
+    best = i;
+  }
+  if (best < tracks_.size()) return best;
+  InstanceTrack& track = tracks_.emplace_back();
+  track.id = next_id_++;
+  // It was seen to move: that is all that is known of it.
+  track.evidence.add({.cells_appeared = kMinUnnamedCells});
+  return best;
+}
+
+void InstanceTracks::drop_unnamed(const PastFrame& frame, const SE3& T_world_camera) {
+  const SE3 T_camera_world = T_world_camera.inverse();
+  std::erase_if(tracks_, [&](const InstanceTrack& track) {
+    if (track.is_named()) return false;
+    const std::int64_t age_ns = frame.stamp_ns - track.stamp_ns;
+    const Support seen = support(track, frame, T_camera_world);
+    const bool in_view = seen.in_view >= static_cast<int>(kMinPoints);
+    if (in_view && seen.share() < kMinSupport) return true;
+    return age_ns > (in_view ? kAtRestNs : kOutOfViewNs);
+  });
+}
+
 cv::Mat InstanceTracks::locate(const PastFrame& frame,
                                const SE3& T_world_camera,
                                const InstanceSegmentation* mask) const {
@@ -207,7 +277,7 @@ cv::Mat InstanceTracks::locate(const PastFrame& frame,
   if (mask != nullptr) mark_exact(*mask, frame.depth, located);
   const SE3 T_camera_world = T_world_camera.inverse();
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (mask != nullptr && tracks_[i].missed_masks == 0) continue;
+    if (mask != nullptr && tracks_[i].is_named() && tracks_[i].missed_masks == 0) continue;
     mark_carried(i, frame, T_camera_world, located);
   }
   return located;
@@ -248,7 +318,8 @@ void InstanceTracks::mark_carried(std::size_t i,
                                   cv::Mat& located) const {
   const InstanceTrack& track = tracks_[i];
   const double age_s = to_seconds(frame.stamp_ns - track.stamp_ns);
-  const double reach_m = track.is_moving() ? config_.max_speed_mps * age_s : 0.0;
+  const bool spreads = track.is_named() && track.is_moving();
+  const double reach_m = spreads ? config_.max_speed_mps * age_s : 0.0;
   const double tolerance_m = config_.depth_tolerance_m + reach_m;
   cv::Mat marked = cv::Mat::zeros(located.size(), CV_8UC1);
   std::vector<double> depths;
@@ -265,7 +336,7 @@ void InstanceTracks::mark_carried(std::size_t i,
   grow_over_surface(frame.depth,
                     {.nearest = static_cast<float>(nearest - tolerance_m),
                      .farthest = static_cast<float>(farthest + tolerance_m),
-                     .steps = track.is_moving() ? std::max(reach, kEdgeCells) : 1},
+                     .steps = spreads ? std::max(reach, kEdgeCells) : 1},
                     marked);
   add_region(marked, i, located);
 }
@@ -276,10 +347,6 @@ void InstanceTracks::move_world(const SE3& T_moved_world) {
     for (InstanceTrack::Place& place : track.trail) place.centre = T_moved_world * place.centre;
     track.v_world = T_moved_world.rotation() * track.v_world;
   }
-}
-
-void InstanceTracks::forget_before(std::int64_t stamp_ns) {
-  std::erase_if(tracks_, [&](const InstanceTrack& track) { return track.stamp_ns < stamp_ns; });
 }
 
 }  // namespace tsg

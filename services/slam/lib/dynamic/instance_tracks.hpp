@@ -16,22 +16,24 @@
 
 namespace tsg {
 
-/// A thing that may move, followed from mask to mask.
+/// A thing that may move, followed from mask to mask; or one that was seen to move and has no name,
+/// as no mask tells of it.
 struct InstanceTrack {
   int id = 0;
-  std::string class_name;
+  std::string class_name;  ///< empty where nobody named it
   FeatureVerdict prior = FeatureVerdict::kPotentiallyDynamic;
   MotionEvidence evidence;
   std::vector<Eigen::Vector3d> points;                ///< world, its surface at `stamp_ns`
   Eigen::Vector3d v_world = Eigen::Vector3d::Zero();  ///< metres per second
   std::int64_t stamp_ns = 0;                          ///< of the last mask that showed it
-  int missed_masks = 0;                               ///< since then
+  int missed_masks = 0;                               ///< since then; 0 without a name
   struct Place {
     std::int64_t stamp_ns = 0;
     Eigen::Vector3d centre;  ///< world
   };
   std::deque<Place> trail;  ///< of the last half second, oldest first
 
+  [[nodiscard]] bool is_named() const { return !class_name.empty(); }
   [[nodiscard]] bool is_moving() const {
     return prior == FeatureVerdict::kDynamic || evidence.is_moving();
   }
@@ -47,6 +49,17 @@ class InstanceTracks {
   /// Takes in a mask with what is remembered of its frame, taken from `T_world_camera`.
   void take_in(const InstanceSegmentation& mask, const PastFrame& frame, const SE3& T_world_camera);
 
+  /// Takes in what moves without a name: `moving` (CV_8UC1 of cells, 255) as seen in a frame for
+  /// which locate() gave `located`. Whatever has moved once may do so again, so it is followed at
+  /// rest too.
+  void take_in_unnamed(const cv::Mat& moving,
+                       const cv::Mat& located,
+                       const PastFrame& frame,
+                       const SE3& T_world_camera);
+
+  /// Drops what has no name and is gone, or has stood still for long.
+  void drop_unnamed(const PastFrame& frame, const SE3& T_world_camera);
+
   /// Where each is in a frame: CV_8UC1 of cells, i + 1 for tracks()[i], 0 elsewhere. `mask` is the
   /// one last taken in where it belongs to this very frame, else null.
   [[nodiscard]] cv::Mat locate(const PastFrame& frame,
@@ -59,8 +72,10 @@ class InstanceTracks {
 
   void move_world(const SE3& T_moved_world);
   void clear() { tracks_.clear(); }
-  /// Drops those that no mask has shown for too long.
-  void forget_before(std::int64_t stamp_ns);
+  /// There are no masks any more.
+  void drop_named() {
+    std::erase_if(tracks_, [](const InstanceTrack& track) { return track.is_named(); });
+  }
 
  private:
   [[nodiscard]] std::vector<InstanceTrack> measure(const InstanceSegmentation& mask,
@@ -69,9 +84,17 @@ class InstanceTracks {
   [[nodiscard]] int find_same(const InstanceTrack& seen, const std::vector<bool>& taken) const;
   void follow(InstanceTrack& track, InstanceTrack seen) const;
   void drop_lost(const PastFrame& frame, const SE3& T_world_camera);
-  [[nodiscard]] double support(const InstanceTrack& track,
-                               const PastFrame& frame,
-                               const SE3& T_camera_world) const;
+  struct Support {
+    int in_view = 0;  ///< cells
+    int there = 0;    ///< of these, where the sensor sees something at about its depth
+    [[nodiscard]] double share() const {
+      return in_view == 0 ? 0.0 : static_cast<double>(there) / in_view;
+    }
+  };
+  [[nodiscard]] Support support(const InstanceTrack& track,
+                                const PastFrame& frame,
+                                const SE3& T_camera_world) const;
+  [[nodiscard]] std::size_t find_unnamed(const cv::Mat& region, const cv::Mat& located);
   /// Calls `visit(cell, depth_m)` for each point in view, moved on to the time of `stamp_ns`.
   template <typename Visit>
   void for_each_cell(const InstanceTrack& track,
