@@ -24,11 +24,14 @@ constexpr double kMinSupport =
 constexpr double kCutShort = 0.5;  // share of its border that runs across a surface
 constexpr int kEdgeCells = 3;      // masks are cut up to 10 pixels short
 constexpr float kMinDepth = 0.1F;  // metres
-constexpr float kFarthest = 100.0F;  // metres: any depth
+constexpr double kBodyDepth = 0.25;  // metres that a thing goes on in depth
+constexpr int kJoinCells = 4;        // between parts of one thing that were seen to move
 constexpr int kBodyCells = 6;        // around what was seen to move: the same thing, mostly
+constexpr int kMinSeeds = 8;         // cells that were seen to move; fewer are chance
 constexpr int kMinUnnamedCells = 40;
 constexpr std::size_t kMaxTracks = 200;             // labels of cells have 8 bits
 constexpr std::int64_t kAtRestNs = 20'000'000'000;  // then what had moved is furniture again
+constexpr std::int64_t kUncertainNs = 500'000'000;  // what hardly moved is forgotten soon
 constexpr std::int64_t kOutOfViewNs = 5'000'000'000;
 
 Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& points) {
@@ -71,6 +74,26 @@ bool is_cut_short(const cv::Mat& depth, const GrowLimits& one_ring, const cv::Ma
   cv::Mat grown = marked.clone();
   grow_over_surface(depth, one_ring, grown);
   return cv::countNonZero(grown) - cv::countNonZero(marked) > kCutShort * border;
+}
+
+/// The thing that `seeds` were seen to move on, as far as it is `known` or hangs together with them
+/// nearby: neither what lies behind nor what it stands beside.
+cv::Mat body_around(const cv::Mat& seeds, const cv::Mat& known, const cv::Mat& depth) {
+  std::vector<double> depths;
+  for (int y = 0; y < seeds.rows; ++y) {
+    for (int x = 0; x < seeds.cols; ++x) {
+      const float z = depth.at<float>(y, x);
+      if (seeds.at<std::uint8_t>(y, x) != 0 && z >= kMinDepth) depths.push_back(z);
+    }
+  }
+  if (depths.empty()) return cv::Mat::zeros(seeds.size(), CV_8UC1);
+  const auto [nearest, farthest] = usual_range(depths);
+  const auto from = static_cast<float>(nearest - kBodyDepth);
+  const auto to = static_cast<float>(farthest + kBodyDepth);
+  const cv::Mat in_range = (depth >= from) & (depth <= to);
+  cv::Mat body = seeds & in_range;
+  grow_over_surface(depth, {.nearest = from, .farthest = to, .steps = kBodyCells}, body);
+  return body | (known & in_range);
 }
 
 /// Where nothing else is marked yet.
@@ -147,7 +170,8 @@ int InstanceTracks::find_same(const InstanceTrack& seen, const std::vector<bool>
   return best;
 }
 
-void InstanceTracks::follow(InstanceTrack& track, InstanceTrack seen) const {
+void InstanceTracks::follow(InstanceTrack& track, InstanceTrack seen) {
+  if (seen.points.size() < kMinPoints) return;
   track.class_name = std::move(seen.class_name);
   track.prior = seen.prior;
   track.points = std::move(seen.points);
@@ -212,31 +236,38 @@ void InstanceTracks::take_in_unnamed(const cv::Mat& moving,
                                      const cv::Mat& located,
                                      const PastFrame& frame,
                                      const SE3& T_world_camera) {
-  cv::Mat regions = moving.clone();
-  grow_over_surface(frame.depth, {.nearest = kMinDepth, .farthest = kFarthest, .steps = kBodyCells},
-                    regions);
+  cv::Mat free = moving.clone();
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (tracks_[i].is_named()) regions.setTo(0, located == static_cast<double>(i + 1));
+    if (tracks_[i].is_named()) free.setTo(0, located == static_cast<double>(i + 1));
   }
+  cv::Mat joined;
+  cv::dilate(free, joined, cv::Mat(), {-1, -1}, kJoinCells);
   cv::Mat labels;
-  const int count = cv::connectedComponents(regions, labels, 8, CV_32S);
+  const int count = cv::connectedComponents(joined, labels, 8, CV_32S);
   for (int label = 1; label < count && tracks_.size() < kMaxTracks; ++label) {
-    cv::Mat region = labels == label;
-    if (cv::countNonZero(region) < kMinUnnamedCells) continue;
-    const std::size_t i = find_unnamed(region, located);
-    region |= located == static_cast<double>(i + 1);
-    InstanceTrack seen;
-    seen.stamp_ns = frame.stamp_ns;
-    for (int y = 0; y < region.rows; ++y) {
-      for (int x = 0; x < region.cols; ++x) {
-        const float depth = frame.depth.at<float>(y, x);
-        if (region.at<std::uint8_t>(y, x) == 0 || depth < kMinDepth) continue;
-        seen.points.push_back(T_world_camera * camera_.unproject({x, y}, depth));
-      }
-    }
-    if (seen.points.size() >= kMinPoints) follow(tracks_[i], std::move(seen));
+    const cv::Mat seeds = free & (labels == label);
+    if (cv::countNonZero(seeds) < kMinSeeds) continue;
+    const std::size_t i = find_unnamed(seeds, located);
+    const cv::Mat known = located == static_cast<double>(i + 1);
+    follow(tracks_[i], seen_at(body_around(seeds, known, frame.depth), frame, T_world_camera));
   }
   std::erase_if(tracks_, [](const InstanceTrack& track) { return track.points.empty(); });
+}
+
+/// What the cells show.
+InstanceTrack InstanceTracks::seen_at(const cv::Mat& cells,
+                                      const PastFrame& frame,
+                                      const SE3& T_world_camera) const {
+  InstanceTrack seen;
+  seen.stamp_ns = frame.stamp_ns;
+  for (int y = 0; y < cells.rows; ++y) {
+    for (int x = 0; x < cells.cols; ++x) {
+      const float depth = frame.depth.at<float>(y, x);
+      if (cells.at<std::uint8_t>(y, x) == 0 || depth < kMinDepth) continue;
+      seen.points.push_back(T_world_camera * camera_.unproject({x, y}, depth));
+    }
+  }
+  return seen;
 }
 
 /// The nameless track that `region` shows most of; a new one where it shows none.
@@ -266,6 +297,7 @@ void InstanceTracks::drop_unnamed(const PastFrame& frame, const SE3& T_world_cam
     const Support seen = support(track, frame, T_camera_world);
     const bool in_view = seen.in_view >= static_cast<int>(kMinPoints);
     if (in_view && seen.share() < kMinSupport) return true;
+    if (!track.evidence.was_certain()) return age_ns > kUncertainNs;
     return age_ns > (in_view ? kAtRestNs : kOutOfViewNs);
   });
 }

@@ -82,7 +82,10 @@ class InstanceTracks {
                                                    const PastFrame& frame,
                                                    const SE3& T_world_camera) const;
   [[nodiscard]] int find_same(const InstanceTrack& seen, const std::vector<bool>& taken) const;
-  void follow(InstanceTrack& track, InstanceTrack seen) const;
+  static void follow(InstanceTrack& track, InstanceTrack seen);
+  [[nodiscard]] InstanceTrack seen_at(const cv::Mat& cells,
+                                      const PastFrame& frame,
+                                      const SE3& T_world_camera) const;
   void drop_lost(const PastFrame& frame, const SE3& T_world_camera);
   struct Support {
     int in_view = 0;  ///< cells

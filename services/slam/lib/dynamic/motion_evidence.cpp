@@ -37,6 +37,7 @@ void MotionEvidence::add(const MotionCounts& counts) {
     change = std::max(change, weigh(share(counts.cells_appeared, counts.cells_same), 0.15, 0.08));
   }
   log_odds_ = std::clamp(log_odds_ + change, -kLimit / 2.0, kLimit);
+  if (log_odds_ >= kLimit) was_certain_ = true;
   if (log_odds_ >= kBelieve) is_moving_ = true;
   if (log_odds_ <= kForget) is_moving_ = false;
 }

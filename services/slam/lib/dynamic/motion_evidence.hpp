@@ -18,11 +18,14 @@ class MotionEvidence {
   void add(const MotionCounts& counts);
 
   [[nodiscard]] bool is_moving() const { return is_moving_; }
+  /// Whether at any time there was no doubt that it moves.
+  [[nodiscard]] bool was_certain() const { return was_certain_; }
   [[nodiscard]] double probability() const;
 
  private:
   double log_odds_ = -1.0;  // things that may move mostly stand
   bool is_moving_ = false;
+  bool was_certain_ = false;
 };
 
 }  // namespace tsg
