@@ -13,6 +13,16 @@ find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  if(TSG_SANITIZE)  # else it does not cache what uses precompiled headers
+    set(CMAKE_CXX_COMPILER_LAUNCHER
+        ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
+  endif()
+endif()
+
+# The instructions that every x86-64 processor since 2009 has: rounding and counting of bits are
+# one each. Others have theirs by default.
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  set(TSG_VECTOR_FLAGS -msse4.2 -mpopcnt)
 endif()
 
 add_library(tsg_options INTERFACE)
@@ -24,4 +34,7 @@ target_include_directories(tsg_options INTERFACE ${CMAKE_SOURCE_DIR})
 if(TSG_SANITIZE)
   add_compile_options(-fsanitize=${TSG_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${TSG_SANITIZE})
+  # Precompiled headers serve all targets only where all have the same instructions.
+  add_compile_options(${TSG_VECTOR_FLAGS})
+  add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)  # ccache needs it
 endif()

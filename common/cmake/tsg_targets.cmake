@@ -7,6 +7,7 @@ function(tsg_library name)
     add_library(${name} STATIC ${ARG_SOURCES})
     target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE tsg_options)
     target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
+    tsg_use_precompiled(${name} tsg_pch)
   else()
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE ${ARG_LINK})
@@ -27,6 +28,7 @@ function(tsg_service name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} tsg_options)
   target_compile_definitions(${name} PRIVATE TSG_VERSION="${PROJECT_VERSION}")
+  tsg_use_precompiled(${name} tsg_pch)
 endfunction()
 
 # tsg_unit_test(NAME [THREADED] SOURCES ... LINK ...): tests without bus; run anywhere, at once.
@@ -64,6 +66,7 @@ function(tsg_add_test_executable name sources link)
   target_link_libraries(${name} PRIVATE ${link} tsg_options GTest::gtest GTest::gmock
                                         GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE TSG_DEFAULT_SHARED_DIR="${TSG_SHARED_DIR}")
+  tsg_use_precompiled(${name} tsg_test_pch)
 endfunction()
 
 # Collects everything `target` links to, directly or not.
@@ -97,12 +100,9 @@ function(tsg_check_dependency_direction)
   endforeach()
 endfunction()
 
-# tsg_vectorise(NAME): the instructions that every x86-64 processor since 2009 has: rounding and
-# counting of bits are one each. Others have theirs by default.
+# tsg_vectorise(NAME): with all instructions that processors in use have.
 function(tsg_vectorise name)
-  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
-    target_compile_options(${name} PUBLIC -msse4.2 -mpopcnt)
-  endif()
+  target_compile_options(${name} PUBLIC ${TSG_VECTOR_FLAGS})
 endfunction()
 
 # tsg_compile_quickly(NAME ...): for command lines, which are read once. With CLI11 they take the
@@ -115,5 +115,6 @@ function(tsg_compile_quickly)
   endif()
   foreach(name IN LISTS ARGN)
     target_compile_options(${name} PRIVATE ${optimisation})
+    set_target_properties(${name} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
   endforeach()
 endfunction()
