@@ -13,9 +13,8 @@
 #include <vector>
 
 #include "common/dataset/evaluation.hpp"
-#include "common/scene_file/scene_file.hpp"
 #include "services/slam/offline/offline_slam.hpp"
-#include "services/tsgctl/simulate/sequence_writer.hpp"
+#include "tests/e2e/rendered_part.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace tsg {
@@ -44,26 +43,11 @@ SE3 T_first_last(const Trajectory& trajectory) {
   return trajectory.front().T_world_camera.inverse() * trajectory.back().T_world_camera;
 }
 
-void render(const simulation::SceneDescription& scene,
-            const Part& part,
-            const std::filesystem::path& folder) {
-  auto simulator = value_or_throw(simulation::Simulator::build(scene));
-  auto writer = value_or_throw(SequenceWriter::open(folder, scene.sensor, simulator.instances()));
-  const int until = static_cast<int>(part.to_s * kRateHz);
-  for (int frame = static_cast<int>(part.from_s * kRateHz); frame < until; ++frame) {
-    throw_on_error(writer.add(simulator.render(frame)));
-  }
-  throw_on_error(writer.finish());
-}
-
 /// Renders a part of a shipped scene and runs over it.
 Followed follow(const std::string& name, const Part& part) {
-  auto scene = value_or_throw(load_scene(TSG_SOURCE_DIR "/config/scenes/" + name + ".yaml"));
-  scene.sensor.camera = scene.sensor.camera.resized(320, 240);
-  scene.sensor.rate_hz = kRateHz;
   const test::TempFolder folder;
   const auto path = folder / name;
-  render(scene, part, path);
+  test::render_part({name, part.from_s, part.to_s, kRateHz}, path);
   Followed result;
   const OfflineHooks hooks{.now_ns = {}, .on_frame = [&](const OfflineFrame& frame) {
                              result.states.push_back(frame.state);
