@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <memory>
+
 #include "services/slam/lib/dynamic/class_policy.hpp"
+#include "services/slam/lib/feature_extractor.hpp"
 #include "services/slam/lib/synthetic_scene.hpp"
 
 namespace tsg {
@@ -111,6 +115,75 @@ TEST_F(DynamicFilterTest, TellsPointsOnTheBodyFromThoseBehindIt) {
   EXPECT_TRUE(filter_.was_dynamic({-0.25, 0.0, 2.0}));
   EXPECT_FALSE(filter_.was_dynamic({-0.375, 0.0, 3.0}));  // same pixel, on the wall
   EXPECT_FALSE(filter_.was_dynamic({0.5, 0.0, 2.0}));     // same depth, beside
+}
+
+/// The filter as the tracker drives it, by a camera that stands at the origin of the world.
+class DynamicFilterInMotionTest : public DynamicFilterTest {
+ protected:
+  struct FeatureShares {
+    double body = 0.0;  ///< of the features on the walker that are judged dynamic
+    double wall = 0.0;  ///< of all others
+  };
+  FeatureShares judge(const RgbdFrame& frame, const InstanceSegmentation* mask) {
+    const cv::Mat verdicts = filter_.judge_by_class(frame, mask, SE3());
+    const auto features = std::make_shared<const Features>(extractor_.extract(frame, verdicts));
+    filter_.note_features(features);
+    const SE3 T_world_camera;
+    const Judgement judgement = filter_.judge_by_motion(*features, &T_world_camera);
+    filter_.note_pose(T_world_camera);
+    return shares_of(*features, judgement.is_dynamic);
+  }
+  static FeatureShares shares_of(const Features& features, const std::vector<bool>& is_dynamic) {
+    std::array<int, 2> all{};
+    std::array<int, 2> dynamic{};
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      if (!features.items[i].has_depth()) continue;
+      const std::size_t on_body = features.items[i].inverse_depth > 0.4F ? 1 : 0;
+      ++all[on_body];
+      dynamic[on_body] += is_dynamic[i] ? 1 : 0;
+    }
+    EXPECT_GT(all[0], 200);
+    EXPECT_GT(all[1], 50);
+    return {static_cast<double>(dynamic[1]) / all[1], static_cast<double>(dynamic[0]) / all[0]};
+  }
+
+  FeatureExtractor extractor_{config_.features, synthetic::camera()};
+};
+
+TEST_F(DynamicFilterInMotionTest, FindsWhatMovesWithoutAMaskAndKeepsTheWall) {
+  for (std::uint64_t seq = 0; seq < 15; ++seq) (void)judge(render(seq), nullptr);
+  const FeatureShares dynamic = judge(render(15), nullptr);
+  EXPECT_GT(dynamic.body, 0.9);
+  EXPECT_LT(dynamic.wall, 0.1);
+}
+
+TEST_F(DynamicFilterInMotionTest, DropsAChairWhileItIsPushedAndKeepsItAfterStanding) {
+  RgbdFrame frame = render(0);
+  InstanceSegmentation mask = mask_of(frame, "chair");
+  const auto stand_until = [&](std::uint64_t last) {
+    FeatureShares dynamic;
+    while (frame.seq < last) {
+      ++frame.seq;
+      frame.stamp_ns += synthetic::kFramePeriodNs;
+      mask.frame_seq = frame.seq;
+      mask.stamp_ns = frame.stamp_ns;
+      dynamic = judge(frame, &mask);
+    }
+    return dynamic;
+  };
+  EXPECT_EQ(stand_until(10).body, 0.0);
+  FeatureShares pushed;
+  for (std::uint64_t seq = 11; seq <= 20; ++seq) {
+    frame = render(seq);
+    mask = mask_of(frame, "chair");
+    pushed = judge(frame, &mask);
+  }
+  EXPECT_GT(pushed.body, 0.9);
+  EXPECT_LT(pushed.wall, 0.1);
+  EXPECT_GT(stand_until(30).body, 0.9);  // it may be pushed again at once
+  const FeatureShares stood = stand_until(110);
+  EXPECT_LT(stood.body, 0.05);
+  EXPECT_LT(stood.wall, 0.02);
 }
 
 }  // namespace
