@@ -21,7 +21,7 @@ bool is_digit(char character) { return character >= '0' && character <= '9'; }
 
 /// Moves leading digits of `text` to `digits`; how many there were.
 int take_digits(std::string_view& text, std::string& digits) {
-  const auto end = std::find_if_not(text.begin(), text.end(), is_digit);
+  const auto* end = std::find_if_not(text.begin(), text.end(), is_digit);
   const auto count = static_cast<std::size_t>(end - text.begin());
   digits.append(text.substr(0, count));
   text.remove_prefix(count);

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -110,7 +111,10 @@ TEST_F(Camera, RealtimeSendsByTheStampsNeverEarlyAndNeverMoreThanAPeriodLate) {
   std::uint64_t last_seq = 0;
   while (const auto sample = take(received == 0 ? 10s : 1s)) {
     const auto& header = (*sample)->header;
-    if (received++ == 0) first_sent_ns = header.publish_monotonic_ns - header.seq * 33'333'000;
+    if (received++ == 0) {
+      const auto periods = static_cast<std::int64_t>(header.seq);
+      first_sent_ns = header.publish_monotonic_ns - periods * 33'333'000;
+    }
     const auto behind_ns =
         header.publish_monotonic_ns - first_sent_ns - (header.stamp_ns - kSequenceStartNs);
     EXPECT_GT(behind_ns, -2'000'000) << "frame " << header.seq;
@@ -271,10 +275,9 @@ TEST_F(Camera, SaysOnceASecondHowItIs) {
   ASSERT_TRUE(bus_.wait_for<topics::Diagnostics>(5s, [](const auto& message) {
     const auto status = to_diagnostics(message);
     if (status.size() != 1 || status[0].name.find("camera") == std::string::npos) return false;
-    for (const auto& [key, value] : status[0].diagnostic.values) {
-      if (key == "rate_hz" && std::stod(value) > 15.0) return true;
-    }
-    return false;
+    return std::ranges::any_of(status[0].diagnostic.values, [](const auto& entry) {
+      return entry.first == "rate_hz" && std::stod(entry.second) > 15.0;
+    });
   })) << camera.log();
 }
 

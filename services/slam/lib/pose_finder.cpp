@@ -31,10 +31,10 @@ double largest_sigma(const PoseEstimate& estimate) {
 
 }  // namespace
 
-std::optional<Fix> PoseFinder::find(const PoseQuery& query, std::optional<Fix> fix) {
-  if (fix && refine(query, *fix) && !is_weak(*fix)) return fix;
+std::optional<Fix> PoseFinder::find(const PoseQuery& query, std::optional<Fix> first) {
+  if (first && refine(query, *first) && !is_weak(*first)) return first;
   if (auto shaped = by_surface(query); shaped && refine(query, *shaped)) return shaped;
-  if (fix && fix->inliers >= config_.tracker.min_inliers) return fix;
+  if (first && first->inliers >= config_.tracker.min_inliers) return first;
   return by_keyframes(query);
 }
 

@@ -103,8 +103,8 @@ void add_region(const cv::Mat& marked, std::size_t i, cv::Mat& located) {
 
 }  // namespace
 
-InstanceTracks::InstanceTracks(const DynamicFilterConfig& config, const CameraModel& cell_camera)
-    : config_(config), camera_(cell_camera) {}
+InstanceTracks::InstanceTracks(DynamicFilterConfig config, const CameraModel& cell_camera)
+    : config_(std::move(config)), camera_(cell_camera) {}
 
 void InstanceTracks::take_in(const InstanceSegmentation& mask,
                              const PastFrame& frame,

@@ -44,7 +44,7 @@ struct InstanceTrack {
 /// shows there, so that background beside it is kept.
 class InstanceTracks {
  public:
-  InstanceTracks(const DynamicFilterConfig& config, const CameraModel& cell_camera);
+  InstanceTracks(DynamicFilterConfig config, const CameraModel& cell_camera);
 
   /// Takes in a mask with what is remembered of its frame, taken from `T_world_camera`.
   void take_in(const InstanceSegmentation& mask, const PastFrame& frame, const SE3& T_world_camera);

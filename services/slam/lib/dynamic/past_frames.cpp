@@ -1,6 +1,7 @@
 #include "services/slam/lib/dynamic/past_frames.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 namespace tsg {
@@ -39,10 +40,10 @@ const PastFrame* PastFrames::find(std::uint64_t seq) const {
 }
 
 const PastFrame* PastFrames::before(std::int64_t age_ns) const {
-  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
-    const std::int64_t age = now().stamp_ns - frame->stamp_ns;
+  for (const PastFrame& frame : frames_ | std::views::reverse) {
+    const std::int64_t age = now().stamp_ns - frame.stamp_ns;
     if (age >= 2 * age_ns) return nullptr;
-    if (age >= age_ns && frame->T_world_camera) return &*frame;
+    if (age >= age_ns && frame.T_world_camera) return &frame;
   }
   return nullptr;
 }

@@ -21,28 +21,53 @@ float tolerance(double sigma, float inverse_depth) {
 /// Whether all around a cell was seen and lay behind `inverse_depth`: at silhouettes a pose that is
 /// off by a little would show one surface through the other, and of thin things the sensor misses
 /// parts at random.
-bool lay_behind(const cv::Mat& depth, int column, int row, float inverse_depth, float allowed) {
-  for (int y = row - 1; y <= row + 1; ++y) {
+bool lay_behind(const cv::Mat& depth, const cv::Point& cell, float inverse_depth, float allowed) {
+  for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
     const auto* line = depth.ptr<float>(y);
-    for (int x = column - 1; x <= column + 1; ++x) {
+    for (int x = cell.x - 1; x <= cell.x + 1; ++x) {
       if (line[x] <= 0.0F || inverse_depth - 1.0F / line[x] <= allowed) return false;
     }
   }
   return true;
 }
 
-CellEvidence judge(
-    const cv::Mat& then, const Eigen::Vector3f& p_then, int column, int row, double sigma) {
-  const float seen = then.at<float>(row, column);
+CellEvidence judge(const cv::Mat& then, float depth, const cv::Point& cell, double sigma) {
+  const float seen = then.at<float>(cell);
   if (seen <= 0.0F) return CellEvidence::kNone;
-  const float inverse_depth = 1.0F / p_then.z();
+  const float inverse_depth = 1.0F / depth;
   const float allowed = tolerance(sigma, inverse_depth);
   const float nearer_by = inverse_depth - 1.0F / seen;
   if (nearer_by < -allowed) return CellEvidence::kNone;
   if (nearer_by <= allowed) return CellEvidence::kSame;
-  return lay_behind(then, column, row, inverse_depth, allowed) ? CellEvidence::kAppeared
-                                                               : CellEvidence::kNone;
+  return lay_behind(then, cell, inverse_depth, allowed) ? CellEvidence::kAppeared
+                                                        : CellEvidence::kNone;
 }
+
+/// Lays cells of one camera into the view of another, in single precision: it is done for all.
+class Overlay {
+ public:
+  Overlay(const CameraModel& camera, const SE3& T_then_now)
+      : R_(T_then_now.rotation_matrix().cast<float>()),
+        t_(T_then_now.translation().cast<float>()),
+        focal_(static_cast<float>(camera.fx), static_cast<float>(camera.fy)),
+        centre_(static_cast<float>(camera.cx), static_cast<float>(camera.cy)) {}
+
+  [[nodiscard]] Eigen::Vector3f point(int column, int row, float depth) const {
+    const Eigen::Vector3f ray((static_cast<float>(column) - centre_.x()) / focal_.x(),
+                              (static_cast<float>(row) - centre_.y()) / focal_.y(), 1.0F);
+    return R_ * (depth * ray) + t_;
+  }
+  [[nodiscard]] cv::Point cell(const Eigen::Vector3f& p_then) const {
+    return {cvRound(focal_.x() * p_then.x() / p_then.z() + centre_.x()),
+            cvRound(focal_.y() * p_then.y() / p_then.z() + centre_.y())};
+  }
+
+ private:
+  Eigen::Matrix3f R_;
+  Eigen::Vector3f t_;
+  Eigen::Vector2f focal_;
+  Eigen::Vector2f centre_;
+};
 
 }  // namespace
 
@@ -51,26 +76,19 @@ void compare_depth(const CameraModel& camera,
                    const DepthView& then,
                    double sigma,
                    cv::Mat& evidence) {
-  const SE3 T_then_now = then.T_world_camera.inverse() * now.T_world_camera;
-  const Eigen::Matrix3f R = T_then_now.rotation_matrix().cast<float>();
-  const Eigen::Vector3f t = T_then_now.translation().cast<float>();
-  const Eigen::Vector2f focal(static_cast<float>(camera.fx), static_cast<float>(camera.fy));
-  const Eigen::Vector2f centre(static_cast<float>(camera.cx), static_cast<float>(camera.cy));
+  const Overlay overlay(camera, then.T_world_camera.inverse() * now.T_world_camera);
+  const cv::Rect inner(1, 1, then.depth.cols - 2,
+                       then.depth.rows - 2);  // all cells around are there
   for (int y = 0; y < now.depth.rows; ++y) {
     const auto* depths = now.depth.ptr<float>(y);
     auto* found = evidence.ptr<std::uint8_t>(y);
     for (int x = 0; x < now.depth.cols; ++x) {
       if (depths[x] < kMinDepth) continue;
-      const Eigen::Vector3f ray((static_cast<float>(x) - centre.x()) / focal.x(),
-                                (static_cast<float>(y) - centre.y()) / focal.y(), 1.0F);
-      const Eigen::Vector3f p_then = R * (depths[x] * ray) + t;
+      const Eigen::Vector3f p_then = overlay.point(x, y, depths[x]);
       if (p_then.z() < kMinDepth) continue;
-      const int column = cvRound(focal.x() * p_then.x() / p_then.z() + centre.x());
-      const int row = cvRound(focal.y() * p_then.y() / p_then.z() + centre.y());
-      if (column < 1 || row < 1 || column + 1 >= now.depth.cols || row + 1 >= now.depth.rows) {
-        continue;
-      }
-      const CellEvidence says = judge(then.depth, p_then, column, row, sigma);
+      const cv::Point cell = overlay.cell(p_then);
+      if (!inner.contains(cell)) continue;
+      const CellEvidence says = judge(then.depth, p_then.z(), cell, sigma);
       if (says != CellEvidence::kNone) found[x] = static_cast<std::uint8_t>(says);
     }
   }
