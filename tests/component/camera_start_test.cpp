@@ -64,7 +64,7 @@ TEST_F(CameraStart, WithValuesOutOfRangeListsThemAll) {
 
 TEST_F(CameraStart, WithAnUnknownSceneListsTheOthers) {
   expect_exit({"camera.source=simulation", "camera.simulation.scene=kitchen"}, 66,
-              "there is no scene \"kitchen\"; known: corridor_loop crowd");
+              "there is no scene \"kitchen\"; known: busy_office cart corridor_loop crowd");
   expect_exit({"camera.source=simulation", "camera.simulation.scene=/no/room.yaml"}, 66,
               "there is no file /no/room.yaml");
 }

@@ -222,6 +222,7 @@ void LocalMapper::remove_points(const std::vector<PointId>& points) {
 }
 
 bool LocalMapper::apply_mask(const InstanceSegmentation& mask) {
+  if (!uses_masks(impl_->config.dynamic_filter.method)) return false;
   const auto& keyframes = impl_->map.keyframes();
   const auto place = std::find_if(keyframes.rbegin(), keyframes.rend(), [&](const auto& entry) {
     return entry.second.features->seq == mask.frame_seq;

@@ -208,6 +208,24 @@ TEST_F(SlamTest, TakesOutOfTheMapWhatALateMaskShowsToBeAPerson) {
   EXPECT_FALSE(mapper_.apply_mask(of_no_keyframe));
 }
 
+TEST_F(SlamTest, LeavesTheMapAsItIsWhereMasksHaveNoPartInTheMethod) {
+  SlamConfig config;
+  config.dynamic_filter.method = DynamicMethod::kNone;
+  scene_.add(
+      {.z = 1.2, .corner = {-0.6, -0.6}, .extent = {0.6, 1.2}, .texture_seed = 9, .label = 1});
+  const RgbdFrame frame = scene_.render(0, SE3());
+  const InstanceSegmentation mask = scene_.mask(frame, SE3(), {"person"});
+  Tracker tracker(config, synthetic::camera());
+  LocalMapper mapper(config, synthetic::camera());
+  TrackResult result = tracker.track(tracker.extract(frame, &mask), *mapper.snapshot());
+  EXPECT_EQ(result.features.dynamic, 0);
+  ASSERT_TRUE(result.keyframe);
+  mapper.insert(std::move(*result.keyframe));
+  const std::size_t before = mapper.snapshot()->points.size();
+  EXPECT_FALSE(mapper.apply_mask(mask));
+  EXPECT_EQ(mapper.snapshot()->points.size(), before);
+}
+
 TEST_F(SlamTest, ReportsStagesAsTheyBegin) {
   std::vector<TrackingStage> stages;
   Tracker tracker(SlamConfig{}, synthetic::camera(),

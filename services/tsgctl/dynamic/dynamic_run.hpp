@@ -21,7 +21,7 @@ struct DebugPictures {
 
 struct DynamicOptions {
   BenchOptions bench;  ///< without on_frame, which is used here
-  int margin_px = 2;   ///< for make_frame_truth()
+  int margin_px = 4;   ///< for make_frame_truth(); a corner is made by pixels up to 3 beside it
   DebugPictures debug = {};
 };
 

@@ -19,6 +19,7 @@ namespace {
 constexpr double kUnknownDepth = 2.0;  // metres, for masks of frames that were never seen
 constexpr double kOnSurface = 0.1;     // metres; what lies deeper is not the thing
 constexpr float kMinDepth = 0.1F;      // metres
+constexpr std::size_t kMaxAsked = 64;  // of the features of one thing, who else moved alike
 constexpr int kMinAppearedCells = 24;  // specks are noise at the end of range
 constexpr std::int64_t kDoubtNs = 1'000'000'000;  // after something nameless was last seen to move
 constexpr float kFarthest = 100.0F;               // metres: any depth
@@ -37,9 +38,10 @@ cv::Point cell_of(const Feature& feature) {
 /// How many of them moved alike: the others are wrong matches.
 int largest_company(const std::vector<FeatureMotion>& moved) {
   std::ptrdiff_t most = 0;
-  for (const FeatureMotion& one : moved) {
+  const std::size_t step = 1 + moved.size() / kMaxAsked;
+  for (std::size_t i = 0; i < moved.size(); i += step) {
     most = std::max(most, std::ranges::count_if(moved, [&](const FeatureMotion& other) {
-                      return moved_alike(one, other);
+                      return moved_alike(moved[i], other);
                     }));
   }
   return static_cast<int>(most);
@@ -70,10 +72,8 @@ cv::Mat DynamicFilter::judge_by_class(const RgbdFrame& frame,
   past_.add({.seq = frame.seq, .stamp_ns = frame.stamp_ns, .depth = depth_of_cells(frame)});
   has_new_mask_ = false;
   located_.release();
-  const bool knows_classes =
-      config_.method != DynamicMethod::kNone && config_.method != DynamicMethod::kEpipolar;
   uses_mask_ =
-      knows_classes && mask != nullptr && mask->frame_seq <= frame.seq &&
+      uses_masks(config_.method) && mask != nullptr && mask->frame_seq <= frame.seq &&
       frame.seq - mask->frame_seq <= static_cast<std::uint64_t>(config_.max_mask_age_frames);
   if (config_.method == DynamicMethod::kFull) return judge_by_place(frame, mask, T_world_camera);
   return uses_mask_ ? exact_verdicts(*mask, config_) : cv::Mat();

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "common/core/time.hpp"
+#include "services/slam/lib/dynamic/body_region.hpp"
 #include "services/slam/lib/dynamic/class_policy.hpp"
 #include "services/slam/lib/dynamic/depth_cells.hpp"
 
@@ -17,22 +17,10 @@ constexpr double kMaxSpeed = 2.5;               // m/s; a faster one is two thin
 constexpr double kSameRadius = 0.4;             // metres: how far a centre jumps between masks
 constexpr std::int64_t kTrailNs = 400'000'000;  // speed over less is noise of the mask's edge
 constexpr std::int64_t kMinTrailNs = 90'000'000;
-constexpr double kMinSpeed = 0.08;  // m/s; slower than the centre of a mask wanders
-constexpr int kMaxMissedMasks = 3;  // networks lose a thing for a mask or two
-constexpr double kMinSupport =
-    0.4;                           // share of a missed thing's cells where something is still there
-constexpr double kCutShort = 0.5;  // share of its border that runs across a surface
-constexpr int kEdgeCells = 3;      // masks are cut up to 10 pixels short
-constexpr float kMinDepth = 0.1F;  // metres
-constexpr double kBodyDepth = 0.4;  // metres that a thing goes on in depth
-constexpr int kJoinCells = 8;       // between parts of one thing that were seen to move
-constexpr int kBodyCells = 12;      // around what was seen to move: the same thing, mostly
-constexpr int kMinSeeds = 8;        // cells that were seen to move; fewer are chance
-constexpr int kMinUnnamedCells = 40;
-constexpr std::size_t kMaxTracks = 200;             // labels of cells have 8 bits
-constexpr std::int64_t kAtRestNs = 20'000'000'000;  // then what had moved is furniture again
-constexpr std::int64_t kUncertainNs = 500'000'000;  // what hardly moved is forgotten soon
-constexpr std::int64_t kOutOfViewNs = 5'000'000'000;
+constexpr double kMinSpeed = 0.08;   // m/s; slower than the centre of a mask wanders
+constexpr int kMaxMissedMasks = 3;   // networks lose a thing for a mask or two
+constexpr double kMinSupport = 0.4;  // share of a missed thing that is still there
+constexpr float kMinDepth = 0.1F;    // metres
 
 Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d median;
@@ -46,13 +34,6 @@ Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& points) {
   return median;
 }
 
-/// Without the twentieth that is nearest and that which is farthest.
-std::pair<double, double> usual_range(std::vector<double>& depths) {
-  std::ranges::sort(depths);
-  const std::size_t cut = depths.size() / 20;
-  return {depths[cut], depths[depths.size() - 1 - cut]};
-}
-
 void note_place(InstanceTrack& track, const Eigen::Vector3d& centre) {
   track.trail.push_back({track.stamp_ns, centre});
   while (track.trail.size() > 2 && track.stamp_ns - track.trail[1].stamp_ns >= kTrailNs) {
@@ -63,37 +44,6 @@ void note_place(InstanceTrack& track, const Eigen::Vector3d& centre) {
   if (span_ns < kMinTrailNs) return;
   const Eigen::Vector3d v_world = (centre - track.trail.front().centre) / to_seconds(span_ns);
   if (v_world.norm() >= kMinSpeed && v_world.norm() <= kMaxSpeed) track.v_world = v_world;
-}
-
-/// Whether most of the marked region's border runs across a surface instead of along its edge. A
-/// whole thing touches others, as feet do the floor, but only here and there.
-bool is_cut_short(const cv::Mat& depth, const GrowLimits& one_ring, const cv::Mat& marked) {
-  cv::Mat beside;
-  cv::dilate(marked, beside, cv::getStructuringElement(cv::MORPH_CROSS, {3, 3}));
-  const int border = cv::countNonZero(beside) - cv::countNonZero(marked);
-  cv::Mat grown = marked.clone();
-  grow_over_surface(depth, one_ring, grown);
-  return cv::countNonZero(grown) - cv::countNonZero(marked) > kCutShort * border;
-}
-
-/// The thing that `seeds` were seen to move on, as far as it is `known` or hangs together with them
-/// nearby: neither what lies behind nor what it stands beside.
-cv::Mat body_around(const cv::Mat& seeds, const cv::Mat& known, const cv::Mat& depth) {
-  std::vector<double> depths;
-  for (int y = 0; y < seeds.rows; ++y) {
-    for (int x = 0; x < seeds.cols; ++x) {
-      const float z = depth.at<float>(y, x);
-      if (seeds.at<std::uint8_t>(y, x) != 0 && z >= kMinDepth) depths.push_back(z);
-    }
-  }
-  if (depths.empty()) return cv::Mat::zeros(seeds.size(), CV_8UC1);
-  const auto [nearest, farthest] = usual_range(depths);
-  const auto from = static_cast<float>(nearest - kBodyDepth);
-  const auto to = static_cast<float>(farthest + kBodyDepth);
-  const cv::Mat in_range = (depth >= from) & (depth <= to);
-  cv::Mat body = seeds & in_range;
-  grow_over_surface(depth, {.nearest = from, .farthest = to, .steps = kBodyCells}, body);
-  return body | (known & in_range);
 }
 
 /// Where nothing else is marked yet.
@@ -232,76 +182,6 @@ void InstanceTracks::for_each_cell(const InstanceTrack& track,
   }
 }
 
-void InstanceTracks::take_in_unnamed(const cv::Mat& moving,
-                                     const cv::Mat& located,
-                                     const PastFrame& frame,
-                                     const SE3& T_world_camera) {
-  cv::Mat free = moving.clone();
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (tracks_[i].is_named()) free.setTo(0, located == static_cast<double>(i + 1));
-  }
-  cv::Mat joined;
-  cv::dilate(free, joined, cv::Mat(), {-1, -1}, kJoinCells);
-  cv::Mat labels;
-  const int count = cv::connectedComponents(joined, labels, 8, CV_32S);
-  for (int label = 1; label < count && tracks_.size() < kMaxTracks; ++label) {
-    const cv::Mat seeds = free & (labels == label);
-    if (cv::countNonZero(seeds) < kMinSeeds) continue;
-    const std::size_t i = find_unnamed(seeds, located);
-    const cv::Mat known = located == static_cast<double>(i + 1);
-    follow(tracks_[i], seen_at(body_around(seeds, known, frame.depth), frame, T_world_camera));
-  }
-  std::erase_if(tracks_, [](const InstanceTrack& track) { return track.points.empty(); });
-}
-
-/// What the cells show.
-InstanceTrack InstanceTracks::seen_at(const cv::Mat& cells,
-                                      const PastFrame& frame,
-                                      const SE3& T_world_camera) const {
-  InstanceTrack seen;
-  seen.stamp_ns = frame.stamp_ns;
-  for (int y = 0; y < cells.rows; ++y) {
-    for (int x = 0; x < cells.cols; ++x) {
-      const float depth = frame.depth.at<float>(y, x);
-      if (cells.at<std::uint8_t>(y, x) == 0 || depth < kMinDepth) continue;
-      seen.points.push_back(T_world_camera * camera_.unproject({x, y}, depth));
-    }
-  }
-  return seen;
-}
-
-/// The nameless track that `region` shows most of; a new one where it shows none.
-std::size_t InstanceTracks::find_unnamed(const cv::Mat& region, const cv::Mat& located) {
-  std::size_t best = tracks_.size();
-  int most = 0;
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (tracks_[i].is_named()) continue;
-    const int overlap = cv::countNonZero(region & (located == static_cast<double>(i + 1)));
-    if (overlap <= most) continue;
-    most = overlap;
-    best = i;
-  }
-  if (best < tracks_.size()) return best;
-  InstanceTrack& track = tracks_.emplace_back();
-  track.id = next_id_++;
-  // It was seen to move: that is all that is known of it.
-  track.evidence.add({.cells_appeared = kMinUnnamedCells});
-  return best;
-}
-
-void InstanceTracks::drop_unnamed(const PastFrame& frame, const SE3& T_world_camera) {
-  const SE3 T_camera_world = T_world_camera.inverse();
-  std::erase_if(tracks_, [&](const InstanceTrack& track) {
-    if (track.is_named()) return false;
-    const std::int64_t age_ns = frame.stamp_ns - track.stamp_ns;
-    const Support seen = support(track, frame, T_camera_world);
-    const bool in_view = seen.in_view >= static_cast<int>(kMinPoints);
-    if (in_view && seen.share() < kMinSupport) return true;
-    if (!track.evidence.was_certain()) return age_ns > kUncertainNs;
-    return age_ns > (in_view ? kAtRestNs : kOutOfViewNs);
-  });
-}
-
 cv::Mat InstanceTracks::locate(const PastFrame& frame,
                                const SE3& T_world_camera,
                                const InstanceSegmentation* mask) const {
@@ -332,14 +212,8 @@ void InstanceTracks::mark_exact(const InstanceSegmentation& mask,
   // The rim that a mask lacks: as long as most of what lies beside it is the same surface.
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (!tracks_[i].is_moving() || depths[i].empty()) continue;
-    const auto [nearest, farthest] = usual_range(depths[i]);
-    const GrowLimits one_ring{.nearest = static_cast<float>(nearest - config_.depth_tolerance_m),
-                              .farthest = static_cast<float>(farthest + config_.depth_tolerance_m),
-                              .steps = 1};
     cv::Mat marked = located == static_cast<double>(i + 1);
-    for (int ring = 0; ring < kEdgeCells && is_cut_short(depth, one_ring, marked); ++ring) {
-      grow_over_surface(depth, one_ring, marked);
-    }
+    complete_body(depth, usual_range(depths[i]), config_.depth_tolerance_m, marked);
     add_region(marked, i, located);
   }
 }
@@ -363,11 +237,11 @@ void InstanceTracks::mark_carried(std::size_t i,
     marked.at<std::uint8_t>(cell) = 255;
   });
   if (depths.empty()) return;
-  const auto [nearest, farthest] = usual_range(depths);
-  const int reach = static_cast<int>(std::lround(reach_m * camera_.fx / nearest));
+  const DepthRange range = usual_range(depths);
+  const int reach = static_cast<int>(std::lround(reach_m * camera_.fx / range.nearest));
   grow_over_surface(frame.depth,
-                    {.nearest = static_cast<float>(nearest - tolerance_m),
-                     .farthest = static_cast<float>(farthest + tolerance_m),
+                    {.nearest = static_cast<float>(range.nearest - tolerance_m),
+                     .farthest = static_cast<float>(range.farthest + tolerance_m),
                      .steps = spreads ? std::max(reach, kEdgeCells) : 1},
                     marked);
   add_region(marked, i, located);

@@ -23,6 +23,11 @@ inline constexpr std::array<std::string_view, 5> kDynamicMethodNames{"none", "ma
   return kDynamicMethodNames[static_cast<std::size_t>(method)];
 }
 
+/// Whether instance masks have a part in it.
+[[nodiscard]] constexpr bool uses_masks(DynamicMethod method) {
+  return method != DynamicMethod::kNone && method != DynamicMethod::kEpipolar;
+}
+
 /// Nothing for a name that is not one of kDynamicMethodNames.
 [[nodiscard]] constexpr std::optional<DynamicMethod> method_named(std::string_view name) {
   for (std::size_t i = 0; i < kDynamicMethodNames.size(); ++i) {
