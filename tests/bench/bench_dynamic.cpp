@@ -113,18 +113,18 @@ class Session {
 };
 
 void full(benchmark::State& state, bool with_masks) {
-  static const Session session;
+  static const Session kSession;
   std::unique_ptr<DynamicFilter> filter;
   int frame = Session::kFrames;
   std::size_t kept = 0;
   for ([[maybe_unused]] auto _ : state) {
     if (frame == Session::kFrames) {
       state.PauseTiming();
-      filter = std::make_unique<DynamicFilter>(session.make_filter());
-      for (frame = 0; frame < Session::kKnown; ++frame) session.judge(frame, with_masks, *filter);
+      filter = std::make_unique<DynamicFilter>(kSession.make_filter());
+      for (frame = 0; frame < Session::kKnown; ++frame) kSession.judge(frame, with_masks, *filter);
       state.ResumeTiming();
     }
-    benchmark::DoNotOptimize(kept = session.judge(frame++, with_masks, *filter));
+    benchmark::DoNotOptimize(kept = kSession.judge(frame++, with_masks, *filter));
   }
   state.counters["kept"] = static_cast<double>(kept);
 }
