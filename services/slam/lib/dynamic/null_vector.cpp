@@ -21,7 +21,7 @@ std::optional<Vector9> exact_solution(const NineColumns& A) {
 }
 
 std::optional<Vector9> least_squares_solution(const NineColumns& A) {
-  const Eigen::JacobiSVD<NineColumns> svd(A, Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<NineColumns> svd(A, Eigen::ComputeFullV);
   const auto& values = svd.singularValues();
   if (values[7] < kMinRatio * values[0]) return std::nullopt;
   return Vector9(svd.matrixV().col(8));
