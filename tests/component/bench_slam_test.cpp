@@ -11,6 +11,7 @@
 namespace tsg {
 namespace {
 
+using test::json_of;
 using test::ProgramResult;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -38,11 +39,6 @@ class BenchSlam : public ::testing::Test {
   static std::unique_ptr<test::TempFolder> folder;
 };
 std::unique_ptr<test::TempFolder> BenchSlam::folder;
-
-/// What stands between the first "{" and the end: progress goes to stderr, which is in the output.
-nlohmann::json json_of(const ProgramResult& result) {
-  return nlohmann::json::parse(result.output.substr(result.output.find("\n{\n")));
-}
 
 TEST_F(BenchSlam, TellsTimesMapMemoryAndErrorAsText) {
   const ProgramResult result = bench({room()});

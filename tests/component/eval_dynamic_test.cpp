@@ -11,6 +11,7 @@
 namespace tsg {
 namespace {
 
+using test::json_of;
 using test::ProgramResult;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -48,11 +49,6 @@ class EvalDynamic : public ::testing::Test {
   static std::unique_ptr<test::TempFolder> folder;
 };
 std::unique_ptr<test::TempFolder> EvalDynamic::folder;
-
-/// What stands between the first "{" and the end: progress goes to stderr, which is in the output.
-nlohmann::json json_of(const ProgramResult& result) {
-  return nlohmann::json::parse(result.output.substr(result.output.find("\n{\n")));
-}
 
 TEST_F(EvalDynamic, ComparesVerdictsWithTheTruthForPrograms) {
   const ProgramResult result = tsgctl({"eval", "dynamic", crowd(), "--json"});

@@ -40,6 +40,11 @@ class TsgctlRun {
   std::vector<std::string> arguments_;
 };
 
+/// What stands between the first "{" and the end: progress goes to stderr, which is in the output.
+inline nlohmann::json json_of(const ProgramResult& result) {
+  return nlohmann::json::parse(result.output.substr(result.output.find("\n{\n")));
+}
+
 /// The beginning of a shipped scene, in a folder that is not there yet.
 inline void simulate(const std::filesystem::path& folder,
                      const std::string& scene,
