@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/core/bounded_queue.hpp"
+#include "common/core/shared_value.hpp"
 #include "services/slam/lib/local_mapper.hpp"
 #include "services/slam/lib/map_contents.hpp"
 
@@ -60,8 +61,8 @@ class MappingLoop {
   void publish();
 
   LocalMapper mapper_;  // owned by worker_ while there is one
-  std::atomic<std::shared_ptr<const LocalMapSnapshot>> snapshot_;
-  std::atomic<std::shared_ptr<const std::vector<KeyframePose>>> corrected_poses_;
+  SharedValue<LocalMapSnapshot> snapshot_;
+  SharedValue<std::vector<KeyframePose>> corrected_poses_;
   std::atomic<bool> is_recalling_ = false;
   std::optional<KeyframeId> centre_;  // asked for last; of the tracking thread
   // Nothing may be lost: a map without its keyframe would no longer fit what tracking refers to.

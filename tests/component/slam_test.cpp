@@ -226,7 +226,7 @@ TEST_F(SlamService, EndsWithinTwoSecondsOfSigterm) {
   start({});
   ASSERT_EQ(track(wall_.frame(0, 0.0, 0.0)), tsg_TRACKING_OK) << content_of(log_);
   const auto asked = std::chrono::steady_clock::now();
-  EXPECT_TRUE(stop().is_success());
+  EXPECT_TRUE(stop().is_success()) << content_of(log_);
   EXPECT_LT(std::chrono::steady_clock::now() - asked, kStopLimit);
 }
 
