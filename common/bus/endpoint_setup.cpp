@@ -19,8 +19,8 @@ QosPointer make_qos(const Qos& wanted) {
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, wanted.keep_last);
   if (wanted.durability == Durability::kTransientLocal) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, wanted.keep_last,
-                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, 1, DDS_LENGTH_UNLIMITED,
+                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   } else {
     dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
   }

@@ -6,7 +6,10 @@ namespace tsg {
 /// through shared memory, or standard DDS for everybody.
 enum class Domain { kStandard, kSharedMemory };
 
-enum class Durability { kVolatile, kTransientLocal };
+enum class Durability {
+  kVolatile,
+  kTransientLocal,  ///< latched: who subscribes later gets the last sample
+};
 
 /// What a topic promises; always reliable. Shared memory takes volatile topics only.
 struct Qos {

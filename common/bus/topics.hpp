@@ -32,7 +32,8 @@ struct Keyframe {
 struct TrackingStatus {
   using Message = tsg_TrackingStatus;
   static constexpr const char* kName = "tsg/tracking_status";
-  static constexpr Qos kQos{.keep_last = 64};
+  // Latched: whoever slam has not discovered yet when it answers a frame still gets the answer.
+  static constexpr Qos kQos{.durability = Durability::kTransientLocal, .keep_last = 64};
 };
 
 struct KeyframePoses {

@@ -175,12 +175,22 @@ TEST_F(SlamService, GetsTheFirstFrameThatIsSentOnceItHasStartedAnew) {
     static_cast<void>(bus_.subscriber<topics::TrackingStatus>());
     send(wall_.frame(seq, 0.0, 0.0));
     const auto status = bus_.wait_for<topics::TrackingStatus>(
-        2s, [seq](const auto& answer) { return answer.header.seq == seq; });
-    EXPECT_TRUE(status) << "start " << seq;
+        kPatience, [seq](const auto& answer) { return answer.header.seq == seq; });
+    EXPECT_TRUE(status) << "start " << seq << "\n" << content_of(log_);
     ASSERT_TRUE(stop().is_success()) << content_of(log_);
     ASSERT_TRUE(eventually(kPatience,
                            [&] { return bus_.publisher<topics::Rgbd>().subscriber_count() == 0; }));
   }
+}
+
+TEST_F(SlamService, TellsWhoComesLaterHowItStands) {
+  start({"slam.lockstep=true", "slam.expect_masks=false"});
+  ASSERT_EQ(track(wall_.frame(0, 0.0, 0.0)), tsg_TRACKING_OK) << content_of(log_);
+  ASSERT_EQ(track(wall_.frame(1, 0.01, 0.0)), tsg_TRACKING_OK) << content_of(log_);
+  Subscriber<topics::TrackingStatus> late(bus_.bus());
+  const auto status = late.take({}, kPatience);
+  ASSERT_TRUE(status);
+  EXPECT_EQ((*status)->header.seq, 1U) << "the last one, not all";
 }
 
 TEST_F(SlamService, SavesTheTrajectoryOnCommand) {
