@@ -3,6 +3,7 @@
 #include <string>
 
 #include "common/bus/convert.hpp"
+#include "common/bus/field_text.hpp"
 #include "common/core/time.hpp"
 
 namespace tsg {
@@ -80,12 +81,6 @@ Expected<void> fill_images(const RgbdFrame& frame, Message& message) {
   message.header.stamp_ns = frame.stamp_ns;
   message.header.publish_monotonic_ns = monotonic_ns();
   return {};
-}
-
-/// Text of a fixed-size field, up to its zero or its end.
-template <std::size_t N>
-std::string text_of(const char (&field)[N]) {  // NOLINT(*-avoid-c-arrays): the generated C type
-  return {field, std::find(field, field + N, '\0')};
 }
 
 Instance to_instance(const tsg_Instance& message) {

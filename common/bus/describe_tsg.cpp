@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/bus/describe.hpp"
+#include "common/bus/field_text.hpp"
 
 namespace tsg {
 namespace {
@@ -41,11 +42,6 @@ json describe_intrinsics(const tsg_CameraIntrinsics& camera) {
 
 json describe_pose(const tsg_Pose& pose) {
   return {{"t", {pose.tx, pose.ty, pose.tz}}, {"q_xyzw", {pose.qx, pose.qy, pose.qz, pose.qw}}};
-}
-
-template <std::size_t N>
-std::string text_of(const char (&field)[N]) {  // NOLINT(*-avoid-c-arrays): the generated C type
-  return {field, std::find(field, field + N, '\0')};
 }
 
 const char* motion_name(tsg_MotionVerdict motion) {

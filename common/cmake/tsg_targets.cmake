@@ -53,7 +53,7 @@ function(tsg_component_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
-  tsg_add_test_executable(${name} "${ARG_SOURCES}" "${ARG_LINK}")
+  tsg_add_test_executable(${name} "${ARG_SOURCES}" "${ARG_LINK}" QUICK)
   target_compile_definitions(${name} PRIVATE TSG_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}"
                                              TSG_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   add_test(NAME ${name}
@@ -61,12 +61,19 @@ function(tsg_component_test name)
   set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
 endfunction()
 
+# tsg_add_test_executable(NAME SOURCES LINK [QUICK]): QUICK where what takes time is in others.
 function(tsg_add_test_executable name sources link)
+  cmake_parse_arguments(ARG "QUICK" "" "" ${ARGN})
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE ${link} tsg_options GTest::gtest GTest::gmock
                                         GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE TSG_DEFAULT_SHARED_DIR="${TSG_SHARED_DIR}")
-  tsg_use_precompiled(${name} tsg_test_pch)
+  if(ARG_QUICK)
+    target_compile_options(${name} PRIVATE ${TSG_QUICK_OPTIMISATION})
+    tsg_use_precompiled(${name} tsg_quick_test_pch)
+  else()
+    tsg_use_precompiled(${name} tsg_test_pch)
+  endif()
 endfunction()
 
 # Collects everything `target` links to, directly or not.
@@ -105,16 +112,12 @@ function(tsg_vectorise name)
   target_compile_options(${name} PUBLIC ${TSG_VECTOR_FLAGS})
 endfunction()
 
-# tsg_compile_quickly(NAME ...): for command lines, which are read once. With CLI11 they take the
-# compiler longest of all files, most of it to optimise (10 s to 7 s each at -O1; with the address
-# sanitizer 15 s to 10 s at -O0).
+# tsg_compile_quickly(NAME ...): for command lines. With CLI11 they take the compiler longest of all
+# files, most of it to optimise (10 s to 7 s each at -O1; with the address sanitizer 15 s to 10 s at
+# -O0).
 function(tsg_compile_quickly)
-  set(optimisation -O1)
-  if(TSG_SANITIZE)
-    set(optimisation -O0)
-  endif()
   foreach(name IN LISTS ARGN)
-    target_compile_options(${name} PRIVATE ${optimisation})
+    target_compile_options(${name} PRIVATE ${TSG_QUICK_OPTIMISATION})
     set_target_properties(${name} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
   endforeach()
 endfunction()

@@ -22,7 +22,6 @@ constexpr int kSmoothings = 4;
 // Bounces beyond the second: what is left of a geometric series with the usual reflection of a
 // furnished room, 0.4.
 constexpr float kAllBounces = 1.15F;
-constexpr float kLiftM = 2e-3F;
 
 /// Corners, drawn a little into the faces around them: a corner at the foot of a wall lies on the
 /// floor as well, and rays from there would start inside it.
@@ -151,7 +150,7 @@ class Baker {
     std::array<Hit, kRays> hits;
     for (int k = 0; k < kRays; ++k) {
       rays.at(static_cast<std::size_t>(k)) = {
-          point.position + kLiftM * point.normal,
+          point.position + kRayLiftM * point.normal,
           cosine_direction(point.normal, spread_point(k, kRays, static_cast<std::uint32_t>(i)))};
     }
     layer_.rays.cast(rays, hits, RayScene::Likeness::kScattered);
@@ -183,7 +182,7 @@ std::vector<float> bake_openness(const Layer& body) {
     std::array<bool, kRays> blocked{};
     for (int k = 0; k < kRays; ++k) {
       const Eigen::Vector2f where = spread_point(k, kRays, static_cast<std::uint32_t>(i));
-      rays.at(static_cast<std::size_t>(k)) = {body.mesh.points[i] + kLiftM * normal,
+      rays.at(static_cast<std::size_t>(k)) = {body.mesh.points[i] + kRayLiftM * normal,
                                               cosine_direction(normal, where), kReachM};
     }
     body.rays.find_blocked(rays, blocked);

@@ -11,7 +11,6 @@ namespace tsg::render {
 namespace {
 
 constexpr int kMaxSamples = 32;
-constexpr float kLiftM = 2e-3F;        // rays start above the surface, or they would hit it
 constexpr float kShortOfLamp = 0.97F;  // and end before the lamp's own housing
 
 Eigen::Vector3f place_on(const Lamp& lamp, const Eigen::Vector2f& where) {
@@ -70,7 +69,7 @@ StrongLamps strongest_lamps(std::span<const Lamp> lamps, const SurfacePoint& poi
 }
 
 Ray shadow_ray(const SurfacePoint& point, const Lamp& lamp, const Eigen::Vector2f& where) {
-  const Eigen::Vector3f origin = point.position + kLiftM * point.normal;
+  const Eigen::Vector3f origin = point.position + kRayLiftM * point.normal;
   return {origin, place_on(lamp, where) - origin, kShortOfLamp};
 }
 

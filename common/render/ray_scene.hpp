@@ -12,6 +12,9 @@
 
 namespace tsg::render {
 
+/// Rays start that far above a surface, in metres, or they would hit it.
+inline constexpr float kRayLiftM = 2e-3F;
+
 /// From `origin` along `direction` (any length; distances count in it) as far as `max_distance`.
 struct Ray {
   Eigen::Vector3f origin;

@@ -8,7 +8,7 @@
 namespace tsg::render {
 namespace {
 
-constexpr float kTurn = 2.0F * std::numbers::pi_v<float>;
+constexpr float kWholeTurn = 2.0F * std::numbers::pi_v<float>;
 
 /// All bits of a number spread over all bits (Wellons' "lowbias32" constants).
 std::uint32_t scrambled(std::uint32_t value) {
@@ -44,7 +44,7 @@ Eigen::Vector3f cosine_direction(const Eigen::Vector3f& normal, const Eigen::Vec
   const Eigen::Vector3f tangent = normal.unitOrthogonal();
   const Eigen::Vector3f bitangent = normal.cross(tangent);
   const float radius = std::sqrt(where.x());
-  const float angle = kTurn * where.y();
+  const float angle = kWholeTurn * where.y();
   return radius * std::cos(angle) * tangent + radius * std::sin(angle) * bitangent +
          std::sqrt(std::max(0.0F, 1.0F - where.x())) * normal;
 }
@@ -52,7 +52,7 @@ Eigen::Vector3f cosine_direction(const Eigen::Vector3f& normal, const Eigen::Vec
 Eigen::Vector3f sphere_direction(const Eigen::Vector2f& where) {
   const float z = 1.0F - 2.0F * where.x();
   const float radius = std::sqrt(std::max(0.0F, 1.0F - z * z));
-  const float angle = kTurn * where.y();
+  const float angle = kWholeTurn * where.y();
   return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <initializer_list>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,6 +24,7 @@ struct Limits {
 inline constexpr Limits kSeconds{0.0, 86'400.0};
 inline constexpr Limits kMetres{-1'000.0, 1'000.0};
 inline constexpr Limits kDegrees{-360.0, 360.0};
+inline constexpr double kRadians = std::numbers::pi / 180.0;  ///< in a degree
 
 /// An element of a list, with its path for messages.
 struct ListItem {

@@ -1,6 +1,5 @@
 // Sections camera and sensor.
 #include <algorithm>
-#include <numbers>
 
 #include "common/dataset/trajectory.hpp"
 #include "common/scene_file/scene_sections.hpp"
@@ -14,7 +13,6 @@ using simulation::RoomDescription;
 using simulation::SceneDescription;
 using simulation::SensorDescription;
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kMilli = 1e-3;
 constexpr Limits kIntrinsics{1.0, 10'000.0};
 

@@ -1,5 +1,4 @@
 // Sections objects, relocations and moves.
-#include <numbers>
 
 #include "common/scene_file/scene_sections.hpp"
 
@@ -11,7 +10,6 @@ using simulation::ObjectDescription;
 using simulation::RelocationDescription;
 using simulation::SceneDescription;
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kBeyondWall = 0.3;  // metres; posters hang on a wall, things may stick into it
 constexpr Limits kScale{0.1, 10.0};
 

@@ -1,5 +1,4 @@
 // Section people, with what they do.
-#include <numbers>
 
 #include "common/scene_file/scene_sections.hpp"
 
@@ -11,7 +10,6 @@ using simulation::ActionKind;
 using simulation::PersonDescription;
 using simulation::SceneDescription;
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr Limits kSpeed{0.1, 2.5};
 constexpr Limits kDuration{0.1, 86'400.0};
 constexpr double kPushSpeed = 0.6;  // m/s; furniture slows one down

@@ -5,7 +5,7 @@
 namespace tsg {
 namespace {
 
-constexpr std::int64_t kFrameNs = 33'333'333;
+constexpr std::int64_t kBetweenFramesNs = 33'333'333;
 
 SE3 forward(double metres) {
   return {Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 0.0, metres)};
@@ -16,7 +16,7 @@ TrackResult result_at(int frame,
                       const SE3& T_world_reference,
                       const SE3& T_reference_camera) {
   TrackResult result;
-  result.stamp_ns = frame * kFrameNs;
+  result.stamp_ns = frame * kBetweenFramesNs;
   result.state = TrackingState::kTracking;
   result.reference = reference;
   result.T_reference_camera = T_reference_camera;
@@ -88,7 +88,7 @@ TEST(Odometry, GivesTheVelocityInCameraAxes) {
   odometry.update(result_at(0, 0, SE3(), SE3()));
   const auto pose = odometry.update(result_at(1, 0, SE3(), forward(0.1)));
   ASSERT_TRUE(pose && pose->twist_camera);
-  EXPECT_NEAR((*pose->twist_camera)[2], 0.1 / (kFrameNs * 1e-9), 1e-6);
+  EXPECT_NEAR((*pose->twist_camera)[2], 0.1 / (kBetweenFramesNs * 1e-9), 1e-6);
 }
 
 }  // namespace

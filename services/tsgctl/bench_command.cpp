@@ -18,7 +18,7 @@
 namespace tsg {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kBenchFooter = R"(
 Runs tracking and mapping in turn over a sequence in TUM RGB-D layout, in one thread and without the
 bus, and tells what that costs in CPU time. Reading images is not in the times. OpenCV's own threads
 are switched off, so that the thread's CPU time is all there is.
@@ -101,7 +101,7 @@ void add_bench_command(CLI::App& app) {
       ->type_name("FILE.png");
   add_method_option(command, arguments->slam.method);
   add_slam_options(command, arguments->slam);
-  command.footer(kFooter);
+  command.footer(kBenchFooter);
   command.callback([arguments] { run(*arguments); });
 }
 

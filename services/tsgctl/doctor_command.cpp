@@ -14,7 +14,7 @@
 namespace tsg {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kDoctorFooter = R"(
 Changes nothing. Ends with 0 when nothing is FAIL; what is warn limits what works.
 
 Examples:
@@ -43,7 +43,7 @@ void add_doctor_command(CLI::App& app) {
       *app.add_subcommand("doctor", "Check this host: shared memory, RouDi, network, programs");
   const auto json = std::make_shared<bool>(false);
   command.add_flag("--json", *json, "For scripts");
-  command.footer(kFooter);
+  command.footer(kDoctorFooter);
   command.callback([json] { run(*json); });
 }
 

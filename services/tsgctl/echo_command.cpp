@@ -24,7 +24,7 @@ struct EchoOptions {
   BusOptions bus;
 };
 
-constexpr const char* kFooter = R"(
+constexpr const char* kEchoFooter = R"(
 Images and clouds are summarised, not dumped. Reading tsg/rgbd and its like takes part in shared
 memory and costs the writer nothing.
 
@@ -73,7 +73,7 @@ void add_echo_command(CLI::App& app) {
       ->type_name("SECONDS")
       ->check(CLI::PositiveNumber.description(""));
   add_bus_options(command, options->bus);
-  command.footer(kFooter);
+  command.footer(kEchoFooter);
   command.callback([options] { run(*options); });
 }
 

@@ -15,7 +15,7 @@
 namespace tsg {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kEvalDynamicFooter = R"(
 Runs tracking and mapping over a sequence with true masks (mask/ and instances.json, which
 'tsgctl simulate' writes) and compares what became of each feature with what is true of it.
 
@@ -124,7 +124,7 @@ void describe(CLI::App& command, EvalDynamicArguments& arguments) {
       ->check(CLI::Range(1, 10'000'000).description(""))
       ->capture_default_str();
   add_slam_options(command, arguments.slam);
-  command.footer(kFooter);
+  command.footer(kEvalDynamicFooter);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace tsg {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kEvalTumFooter = R"(
 Runs the whole system (as tsgctl run --pace lockstep) over sequences of the TUM RGB-D benchmark, plain
 and with removal of dynamic features, and prints the paper's tables with the figures of this system.
 NAME is like fr3/walking_xyz; without one, all sequences of the tables. deploy/fetch-tum downloads them.
@@ -114,7 +114,7 @@ void add_eval_tum_command(CLI::App& app) {
       ->type_name("FILE.onnx");
   command.add_flag("--json", arguments->json, "Write JSON instead of tables");
   add_bus_options(command, arguments->bus);
-  command.footer(kFooter);
+  command.footer(kEvalTumFooter);
   command.callback([arguments] { run(*arguments); });
 }
 

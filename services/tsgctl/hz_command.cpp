@@ -26,7 +26,7 @@ struct HzOptions {
   BusOptions bus;
 };
 
-constexpr const char* kFooter = R"(
+constexpr const char* kHzFooter = R"(
 A line a second: mean rate, slowest and fastest, jitter, latency from publishing to here, holes in
 the sequence numbers.
 
@@ -92,7 +92,7 @@ void add_hz_command(CLI::App& app) {
       ->type_name("SECONDS")
       ->check(CLI::PositiveNumber.description(""));
   add_bus_options(command, options->bus);
-  command.footer(kFooter);
+  command.footer(kHzFooter);
   command.callback([options] { run(*options); });
 }
 

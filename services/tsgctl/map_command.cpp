@@ -26,7 +26,7 @@ struct MapOptions {
   BusOptions bus;
 };
 
-constexpr const char* kFooter = R"(
+constexpr const char* kMapFooter = R"(
 Examples:
   tsgctl map save home.tsgmap
   tsgctl map info home.tsgmap
@@ -123,7 +123,7 @@ CLI::App& add(CLI::App& map,
       ->check(CLI::PositiveNumber.description(""))
       ->capture_default_str();
   add_bus_options(command, options->bus);
-  command.footer(kFooter);
+  command.footer(kMapFooter);
   return command;
 }
 
@@ -131,7 +131,7 @@ CLI::App& add(CLI::App& map,
 
 void add_map_command(CLI::App& app) {
   CLI::App& map = *app.add_subcommand("map", "Save, load and examine maps of slam");
-  map.footer(kFooter);
+  map.footer(kMapFooter);
   map.require_subcommand(1);
   const auto options = std::make_shared<MapOptions>();
   CLI::App& saving = add(map, "save", "Write the map of the running slam into a file", options);

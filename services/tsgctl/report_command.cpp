@@ -18,7 +18,7 @@
 namespace tsg {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kReportFooter = R"(
 Runs the core with each method, and method full with masks that are late, seldom or not there, over
 each sequence, and writes FOLDER/methods.md and FOLDER/methods.json: ATE and RPE by sequence and
 method, improvement over none (eq. 12), recall and precision of the verdicts and the features left
@@ -148,7 +148,7 @@ void add_report_command(CLI::App& app) {
       ->type_name("FOLDER")
       ->capture_default_str();
   add_slam_options(command, arguments->slam);
-  command.footer(kFooter);
+  command.footer(kReportFooter);
   command.callback([arguments] { run(*arguments); });
 }
 

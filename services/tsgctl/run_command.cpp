@@ -34,7 +34,7 @@ struct RunArguments {
   bool debug = false;
 };
 
-constexpr const char* kFooter = R"(
+constexpr const char* kRunFooter = R"(
 Without --segmentation: "model" where --model is given, "dataset" where the input has true masks
 (mask/ and instances.json), else "off".
 
@@ -84,7 +84,7 @@ void describe(CLI::App& command, RunArguments& arguments) {
                    "Draw what was judged of features into OUT/debug, every 10th frame; takes the "
                    "time of another run in lockstep");
   add_bus_options(command, arguments.bus);
-  command.footer(kFooter);
+  command.footer(kRunFooter);
 }
 
 /// Told now rather than when the run is over and its map would be lost.

@@ -20,7 +20,7 @@
 namespace tsg {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kSimulateFooter = R"(
 SCENE is the name of a shipped scene (--list) or the path of a file of your own
 (docs/simulation.md). DIR gets rgb/, depth/, mask/, groundtruth.txt, camera.yaml and instances.json;
 the same scene and seed give the same bytes.
@@ -109,7 +109,7 @@ void add_simulate_command(CLI::App& app) {
       ->type_name("all|none|PART,PART..");
   command.add_option("--size", options.size, "Size of images (the scene's)")->type_name("WxH");
   command.add_flag("--list", arguments->list, "Tell which scenes there are");
-  command.footer(kFooter);
+  command.footer(kSimulateFooter);
   command.callback([arguments] { run(*arguments); });
 }
 

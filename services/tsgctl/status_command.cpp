@@ -25,7 +25,7 @@ struct StatusOptions {
   BusOptions bus;
 };
 
-constexpr const char* kFooter = R"(
+constexpr const char* kStatusFooter = R"(
 Listens to rt/diagnostics for up to 2.5 s. Ends with 0 when all four services are well, 69 when
 none runs, 1 otherwise.
 
@@ -100,7 +100,7 @@ void add_status_command(CLI::App& app) {
   const auto options = std::make_shared<StatusOptions>();
   command.add_flag("--json", options->json, "For scripts, with every figure");
   add_bus_options(command, options->bus);
-  command.footer(kFooter);
+  command.footer(kStatusFooter);
   command.callback([options] { run(*options); });
 }
 

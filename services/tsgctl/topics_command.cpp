@@ -24,7 +24,7 @@ struct TopicsOptions {
   BusOptions bus;
 };
 
-constexpr const char* kFooter = R"(
+constexpr const char* kTopicsFooter = R"(
 Examples:
   tsgctl topics
   tsgctl topics --json | jq '.[] | select(.domain_id == 10)')";
@@ -111,7 +111,7 @@ void add_topics_command(CLI::App& app) {
   const auto options = std::make_shared<TopicsOptions>();
   command.add_flag("--json", options->json, "For scripts");
   add_bus_options(command, options->bus);
-  command.footer(kFooter);
+  command.footer(kTopicsFooter);
   command.callback([options] { run(*options); });
 }
 

@@ -4,19 +4,13 @@
 #include "common/simulation/furniture/assembly.hpp"
 #include "common/simulation/furniture/materials.hpp"
 #include "common/simulation/furniture/pieces.hpp"
+#include "common/simulation/furniture/thing.hpp"
 
 /// Things of cloth and of travel.
 namespace tsg::simulation::pieces {
 namespace {
 
 using Eigen::Vector3f;
-
-FurnitureModel thing(const std::string& class_name, const Assembly& parts) {
-  FurnitureModel model;
-  model.class_name = class_name;
-  model.mesh = parts.finished();
-  return model;
-}
 
 }  // namespace
 

@@ -8,8 +8,8 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr float kSeat = 0.43F;
-constexpr float kArm = 0.17F;    // width of an armrest
-constexpr float kDepth = 0.85F;  // front to back
+constexpr float kArm = 0.17F;         // width of an armrest
+constexpr float kCouchDepth = 0.85F;  // front to back
 
 /// An upholstered seat for `places`, each with a cushion to sit on and one to lean on.
 Assembly upholstered(int places, float place_m, const render::Material& cover, Random& random) {
@@ -17,11 +17,12 @@ Assembly upholstered(int places, float place_m, const render::Material& cover, R
   const float width = inner + 2.0F * kArm;
   const render::Material leg = materials::any_wood(random);
   Assembly parts;
-  parts.cushion({kDepth - 0.06F, width - 0.04F, 0.22F}, placed({0.0F, 0.0F, 0.08F}), 0.03F, cover);
+  parts.cushion({kCouchDepth - 0.06F, width - 0.04F, 0.22F}, placed({0.0F, 0.0F, 0.08F}), 0.03F,
+                cover);
   parts.cushion({0.2F, width - 0.02F, 0.62F}, tilted({-0.31F, 0.0F, 0.12F}, -0.1), 0.07F, cover);
   for (const float side : {-1.0F, 1.0F}) {
-    parts.cushion({kDepth - 0.05F, kArm, 0.5F}, placed({0.0F, side * 0.5F * (inner + kArm), 0.09F}),
-                  0.06F, cover);
+    parts.cushion({kCouchDepth - 0.05F, kArm, 0.5F},
+                  placed({0.0F, side * 0.5F * (inner + kArm), 0.09F}), 0.06F, cover);
     for (const float x : {-0.34F, 0.34F}) {
       parts.bar({x, side * (0.5F * width - 0.09F), 0.0F}, {x, side * (0.5F * width - 0.1F), 0.1F},
                 0.022F, leg);

@@ -4,18 +4,12 @@
 #include "common/simulation/furniture/assembly.hpp"
 #include "common/simulation/furniture/materials.hpp"
 #include "common/simulation/furniture/pieces.hpp"
+#include "common/simulation/furniture/thing.hpp"
 
 namespace tsg::simulation::pieces {
 namespace {
 
 using Eigen::Vector3f;
-
-FurnitureModel thing(const std::string& class_name, const Assembly& parts) {
-  FurnitureModel model;
-  model.class_name = class_name;
-  model.mesh = parts.finished();
-  return model;
-}
 
 /// A key with one letter of the picture of caps.
 void add_key(Assembly& parts,

@@ -15,7 +15,7 @@ FurnitureModel appliance(const std::string& class_name, const Assembly& parts, d
   return model;
 }
 
-void add_handle(Assembly& parts, const Vector3f& at, const Vector3f& half_m) {
+void add_bar_handle(Assembly& parts, const Vector3f& at, const Vector3f& half_m) {
   const Vector3f out(0.035F, 0.0F, 0.0F);
   parts.pipe({at - half_m, at - 0.95F * half_m + out, at + 0.95F * half_m + out, at + half_m},
              0.009F, materials::chrome());
@@ -72,8 +72,8 @@ FurnitureModel fridge(Random& random) {
   const float x = 0.29F;
   parts.cushion({0.06F, 0.598F, split - 0.066F}, placed({x, 0.0F, 0.06F}), 0.012F, front);
   parts.cushion({0.06F, 0.598F, height - split - 0.004F}, placed({x, 0.0F, split}), 0.012F, front);
-  add_handle(parts, {0.318F, 0.24F, split - 0.2F}, {0.0F, 0.0F, 0.14F});
-  add_handle(parts, {0.318F, 0.24F, split + 0.3F}, {0.0F, 0.0F, 0.22F});
+  add_bar_handle(parts, {0.318F, 0.24F, split - 0.2F}, {0.0F, 0.0F, 0.14F});
+  add_bar_handle(parts, {0.318F, 0.24F, split + 0.3F}, {0.0F, 0.0F, 0.22F});
   // Magnets and notes.
   const int notes = random.integer(3, 6);
   for (int i = 0; i < notes; ++i) {
@@ -102,7 +102,7 @@ FurnitureModel sink_unit(Random& random) {
   for (int i = 0; i < 2; ++i) {
     const float y = (static_cast<float>(i) - 0.5F) * 0.5F * kWidth;
     parts.box({0.018F, 0.5F * kWidth - 0.008F, kTop - 0.16F}, {0.265F, y, 0.105F}, front);
-    add_handle(parts, {0.274F, y, kTop - 0.14F}, {0.0F, 0.09F, 0.0F});
+    add_bar_handle(parts, {0.274F, y, kTop - 0.14F}, {0.0F, 0.09F, 0.0F});
   }
   for (const float side : {-1.0F, 1.0F}) {  // the sides of the cupboard around the basin
     parts.box({kDepth - 0.05F, 0.018F, 0.17F},
@@ -134,7 +134,7 @@ FurnitureModel microwave(Random& random) {
   }
   parts.box({0.006F, 0.33F, 0.23F}, {0.181F, -0.06F, 0.03F}, dark);
   parts.box({0.004F, 0.24F, 0.15F}, {0.185F, -0.07F, 0.07F}, materials::black_glass());
-  add_handle(parts, {0.182F, 0.095F, 0.145F}, {0.0F, 0.0F, 0.09F});
+  add_bar_handle(parts, {0.182F, 0.095F, 0.145F}, {0.0F, 0.0F, 0.09F});
   parts.add(render::make_picture(0.075F, 0.025F, materials::glowing({90, 220, 60}, 0.8F)),
             placed({0.1815F, 0.17F, 0.235F}));
   for (int i = 0; i < 12; ++i) {

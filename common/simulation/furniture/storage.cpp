@@ -25,7 +25,7 @@ void add_front(Assembly& parts,
 }
 
 /// A bow handle whose middle is at `at`, along `half_m`.
-void add_handle(Assembly& parts, const Vector3f& at, const Vector3f& half_m) {
+void add_bow_handle(Assembly& parts, const Vector3f& at, const Vector3f& half_m) {
   const Vector3f out(0.03F, 0.0F, 0.0F);
   parts.pipe({at - half_m, at - 0.9F * half_m + out, at + 0.9F * half_m + out, at + half_m}, 0.006F,
              materials::chrome());
@@ -77,7 +77,7 @@ FurnitureModel cabinet(Random& random) {
   for (const float side : {-1.0F, 1.0F}) {
     const Vector3f at(x, side * 0.25F * width, 0.065F);
     add_front(parts, {0.5F * width, height - 0.09F}, at, front);
-    add_handle(parts, {x + 0.018F, side * 0.05F, 0.58F * height}, {0.0F, 0.0F, 0.07F});
+    add_bow_handle(parts, {x + 0.018F, side * 0.05F, 0.58F * height}, {0.0F, 0.0F, 0.07F});
     add_label(parts, {x + 0.018F, side * 0.25F * width, 0.8F * height}, random);
   }
   return storage("cabinet", parts, height);
@@ -105,7 +105,7 @@ FurnitureModel drawer_unit(Random& random) {
   for (int i = 0; i < drawers; ++i) {
     const float z = 0.055F + pitch * static_cast<float>(i);
     add_front(parts, {kWidth, pitch}, {x, 0.0F, z}, front);
-    add_handle(parts, {x + 0.018F, 0.0F, z + 0.7F * pitch}, {0.0F, 0.07F, 0.0F});
+    add_bow_handle(parts, {x + 0.018F, 0.0F, z + 0.7F * pitch}, {0.0F, 0.07F, 0.0F});
   }
   add_label(parts, {x + 0.018F, 0.1F, kHeight - 0.4F * pitch}, random);
   return storage("drawer unit", parts, kHeight);

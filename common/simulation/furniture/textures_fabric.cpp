@@ -8,31 +8,31 @@
 namespace tsg::simulation::textures {
 namespace {
 
-constexpr int kSide = 256;
-const cv::Size kSize(kSide, kSide);
+constexpr int kClothSide = 256;
+const cv::Size kSize(kClothSide, kClothSide);
 
 void add_stripes(cv::Mat& picture, const Colour& colour, Random& random) {
   const int pitch = 1 << random.integer(4, 6);
-  for (int x = 0; x < kSide; x += pitch) {
-    paint::fill(picture, {x, 0, pitch / 3, kSide}, colour);
-    paint::fill(picture, {x + pitch / 2, 0, 2, kSide}, paint::scaled(colour, 0.7));
+  for (int x = 0; x < kClothSide; x += pitch) {
+    paint::fill(picture, {x, 0, pitch / 3, kClothSide}, colour);
+    paint::fill(picture, {x + pitch / 2, 0, 2, kClothSide}, paint::scaled(colour, 0.7));
   }
 }
 
 void add_checks(cv::Mat& picture, const Colour& colour, Random& random) {
   const int pitch = 1 << random.integer(5, 6);
   cv::Mat above = picture.clone();
-  for (int x = 0; x < kSide; x += pitch) {
-    paint::fill(above, {x, 0, pitch / 2, kSide}, colour);
-    paint::fill(picture, {0, x, kSide, pitch / 2}, colour);
+  for (int x = 0; x < kClothSide; x += pitch) {
+    paint::fill(above, {x, 0, pitch / 2, kClothSide}, colour);
+    paint::fill(picture, {0, x, kClothSide, pitch / 2}, colour);
   }
   cv::addWeighted(picture, 0.5, above, 0.5, 0.0, picture);
 }
 
 void add_dots(cv::Mat& picture, const Colour& colour, Random& random) {
   const int pitch = 1 << random.integer(4, 6);
-  for (int y = 0; y < kSide; y += pitch) {
-    for (int x = 0; x < kSide; x += pitch) {
+  for (int y = 0; y < kClothSide; y += pitch) {
+    for (int x = 0; x < kClothSide; x += pitch) {
       const cv::Point at(x + (y / pitch % 2 + 1) * pitch / 4, y + pitch / 2);
       cv::circle(picture, at, pitch / 5, colour, cv::FILLED, cv::LINE_AA);
     }
@@ -77,8 +77,8 @@ cv::Mat weave(const Colour& colour, Random& random) {
   cv::Mat threads(kSize, CV_32FC1);
   const cv::Mat fuzz = paint::noise(kSize, kSize, random);
   const cv::Mat wear = paint::fractal(kSize, {4, 4}, 3, random);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kClothSide; ++y) {
+    for (int x = 0; x < kClothSide; ++x) {
       const bool is_over = (x / 4 + y / 4) % 2 == 0;
       const float across =
           std::sin(static_cast<float>(is_over ? x : y) * std::numbers::pi_v<float> / 4.0F);
@@ -132,7 +132,7 @@ cv::Mat rug(Random& random) {
 
 cv::Mat brushed_metal(const Colour& colour, Random& random) {
   cv::Mat picture = paint::flat(kSize, colour);
-  paint::shade(picture, 0.12 * paint::fractal(kSize, {4, kSide}, 1, random) +
+  paint::shade(picture, 0.12 * paint::fractal(kSize, {4, kClothSide}, 1, random) +
                             0.08 * paint::fractal(kSize, {4, 4}, 3, random));
   return picture;
 }
@@ -141,7 +141,7 @@ cv::Mat cardboard(Random& random) {
   const Colour brown(96, 140, 178);
   const Colour ink(60, 70, 80);
   cv::Mat picture = paint::flat(kSize, brown);
-  paint::fill(picture, {0, 112, kSide, 26}, {118, 170, 205});  // tape
+  paint::fill(picture, {0, 112, kClothSide, 26}, {118, 170, 205});  // tape
   paint::write(picture, paint::phrase(random, 1), {18, 60}, 16, ink);
   paint::print_lines(picture, {20, 72, 110, 30}, 8, ink, random);
   cv::rectangle(picture, {168, 26, 60, 66}, ink, 3);

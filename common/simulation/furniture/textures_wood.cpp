@@ -8,7 +8,7 @@
 namespace tsg::simulation::textures {
 namespace {
 
-constexpr int kSide = 512;
+constexpr int kBoardSide = 512;
 constexpr int kFloorSide = 1024;
 
 /// Dark and light parts of the grain.
@@ -66,7 +66,7 @@ Wood any_wood(Random& random) {
 
 cv::Mat wood(Wood kind, Random& random) {
   const auto [dark, light] = colours_of(kind);
-  return paint::tinted(grain({kSide, kSide}, random), dark, light);
+  return paint::tinted(grain({kBoardSide, kBoardSide}, random), dark, light);
 }
 
 cv::Mat planks(Wood kind, Random& random) {

@@ -13,15 +13,15 @@ using Eigen::Vector3f;
 constexpr float kFrame = 0.055F;
 constexpr float kOutwards = static_cast<float>(kWallThickness);
 
-render::Material frame_paint() { return materials::plain({222, 228, 230}, 0.3F); }
+render::Material window_paint() { return materials::plain({222, 228, 230}, 0.3F); }
 
 Vector3f middle_of(const Hole& hole) {
   return {0.0F, 0.5F * (hole.left_m + hole.right_m), 0.5F * (hole.bottom_m + hole.top_m)};
 }
 
 /// Boards over the cut through the wall, `depth_m` deep, and the sill, which stands into the room.
-void add_lining(Assembly& parts, const Hole& hole, float depth_m) {
-  const render::Material paint = frame_paint();
+void add_reveal(Assembly& parts, const Hole& hole, float depth_m) {
+  const render::Material paint = window_paint();
   constexpr float kBoard = 0.012F;
   const float x = -0.5F * depth_m;
   const float width = hole.right_m - hole.left_m;
@@ -38,7 +38,7 @@ void add_lining(Assembly& parts, const Hole& hole, float depth_m) {
 
 /// Casements with their bars, as many as the width asks for, and a handle on each.
 void add_frame(Assembly& parts, const Hole& hole, float x) {
-  const render::Material paint = frame_paint();
+  const render::Material paint = window_paint();
   const float width = hole.right_m - hole.left_m;
   const float height = hole.top_m - hole.bottom_m;
   const int casements = std::max(1, static_cast<int>(std::lround(width / 0.8F)));
@@ -125,7 +125,7 @@ Lamp daylight(const Wall& wall, const Hole& hole) {
 /// One window in the wall's axes; `depth` as depth_through() tells it.
 render::Mesh make_window(const Hole& hole, const std::optional<float>& depth, std::uint64_t seed) {
   Assembly window;
-  add_lining(window, hole, depth ? 0.5F * *depth : kOutwards);
+  add_reveal(window, hole, depth ? 0.5F * *depth : kOutwards);
   add_frame(window, hole, depth ? -0.5F * *depth + 0.025F : -kOutwards + 0.035F);
   if (!depth) {
     Random random(seed_of(seed, "window " + std::to_string(hole.opening)));

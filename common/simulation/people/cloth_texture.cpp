@@ -10,11 +10,11 @@
 namespace tsg::simulation {
 namespace {
 
-using Colour = cv::Vec3d;
+using Dye = cv::Vec3d;
 
 constexpr int kPixels = 512;
 
-Colour as_colour(const cv::Vec3b& bytes) {
+Dye as_colour(const cv::Vec3b& bytes) {
   return {static_cast<double>(bytes[0]), static_cast<double>(bytes[1]),
           static_cast<double>(bytes[2])};
 }
@@ -28,19 +28,19 @@ bool in_band(double value, double from, double to) {
 }
 
 struct Dyes {
-  Colour ground;
-  Colour accent;
-  Colour second;
+  Dye ground;
+  Dye accent;
+  Dye second;
 };
 
-Colour striped(const Dyes& dyes, double y_m) {
+Dye striped(const Dyes& dyes, double y_m) {
   if (in_band(y_m / 0.075, 0.0, 0.42)) return dyes.accent;
   if (in_band(y_m / 0.075, 0.62, 0.70)) return dyes.second;
   return dyes.ground;
 }
 
 /// Tartan: threads of both directions shine through each other.
-Colour checked(const Dyes& dyes, double x_m, double y_m) {
+Dye checked(const Dyes& dyes, double x_m, double y_m) {
   const auto thread = [&dyes](double along) {
     if (in_band(along / 0.072, 0.0, 0.38)) return dyes.accent;
     if (in_band(along / 0.072, 0.62, 0.70)) return dyes.second;
@@ -49,7 +49,7 @@ Colour checked(const Dyes& dyes, double x_m, double y_m) {
   return 0.5 * thread(x_m) + 0.5 * thread(y_m + 0.01);
 }
 
-Colour with_diamonds(const Dyes& dyes, double x_m, double y_m) {
+Dye with_diamonds(const Dyes& dyes, double x_m, double y_m) {
   const double u = fraction(x_m / 0.10) - 0.5;
   const double v = fraction(y_m / 0.14) - 0.5;
   const bool is_line = in_band((x_m / 0.10 + y_m / 0.14), 0.48, 0.52) ||
@@ -58,7 +58,7 @@ Colour with_diamonds(const Dyes& dyes, double x_m, double y_m) {
   return std::abs(u) + std::abs(v) < 0.5 ? dyes.accent : dyes.ground;
 }
 
-Colour dotted(const Dyes& dyes, double x_m, double y_m) {
+Dye dotted(const Dyes& dyes, double x_m, double y_m) {
   const double row = std::floor(y_m / 0.032);
   const double u = fraction(x_m / 0.037 + 0.5 * std::fmod(std::abs(row), 2.0)) - 0.5;
   const double v = fraction(y_m / 0.032) - 0.5;
@@ -68,7 +68,7 @@ Colour dotted(const Dyes& dyes, double x_m, double y_m) {
 }
 
 /// Leaves and blossoms: each cell of a grid has one, turned and sized by chance.
-Colour printed(const Dyes& dyes, std::uint64_t seed, double x_m, double y_m) {
+Dye printed(const Dyes& dyes, std::uint64_t seed, double x_m, double y_m) {
   constexpr double kCellM = 0.055;
   const auto column = static_cast<std::int64_t>(std::floor(x_m / kCellM));
   const auto row = static_cast<std::int64_t>(std::floor(y_m / kCellM));
@@ -98,7 +98,7 @@ Colour printed(const Dyes& dyes, std::uint64_t seed, double x_m, double y_m) {
   return dyes.ground;
 }
 
-Colour blocks(const Dyes& dyes, double x_m, double y_m) {
+Dye blocks(const Dyes& dyes, double x_m, double y_m) {
   if (y_m < 0.20) return dyes.ground;
   if (y_m < 0.235) return dyes.second;
   if (y_m < 0.25 + 0.02 * std::abs(2.0 * fraction(x_m / 0.06) - 1.0)) return dyes.accent;
@@ -106,7 +106,7 @@ Colour blocks(const Dyes& dyes, double x_m, double y_m) {
 }
 
 /// Rows of V-shaped stitches, with a band of ornament.
-Colour knitted(const Dyes& dyes, double x_m, double y_m) {
+Dye knitted(const Dyes& dyes, double x_m, double y_m) {
   const double slant = 0.5 * std::abs(2.0 * fraction(x_m / 0.012) - 1.0);
   const double stitch = fraction(y_m / 0.009 + slant);
   const double shade = 0.72 + 0.28 * std::sin(kPi * stitch);
@@ -118,15 +118,15 @@ Colour knitted(const Dyes& dyes, double x_m, double y_m) {
 }
 
 /// Twill with white threads, faded by chance.
-Colour denim(const Dyes& dyes, std::uint64_t seed, double x_m, double y_m) {
+Dye denim(const Dyes& dyes, std::uint64_t seed, double x_m, double y_m) {
   const double twill = fraction((x_m + y_m) / 0.0045);
   const double fade = noise(seed + 1, x_m / 0.12, y_m / 0.30);
   const double grain = noise(seed + 2, x_m / 0.004, y_m / 0.012);
   const double white = 0.10 + 0.18 * fade + 0.12 * grain + (twill < 0.3 ? 0.08 : 0.0);
-  return dyes.ground + (Colour(215, 215, 205) - dyes.ground) * std::clamp(white, 0.0, 0.6);
+  return dyes.ground + (Dye(215, 215, 205) - dyes.ground) * std::clamp(white, 0.0, 0.6);
 }
 
-Colour dyed(const Cloth& cloth, double x_m, double y_m) {
+Dye dyed(const Cloth& cloth, double x_m, double y_m) {
   const Dyes dyes{as_colour(cloth.ground), as_colour(cloth.accent), as_colour(cloth.second)};
   switch (cloth.pattern) {
     case Pattern::kPlain:
@@ -168,7 +168,7 @@ cv::Mat paint_cloth(const Cloth& cloth, const cv::Size2d& size_m) {
     for (int column = 0; column < image.cols; ++column) {
       const double x_m = size_m.width * (column + 0.5) / image.cols;
       const double weave = 0.93 + 0.14 * noise(cloth.seed + 7, x_m / 0.0022, y_m / 0.0022);
-      const Colour colour = dyed(cloth, x_m, y_m) * (weave * folds(cloth.seed, x_m, y_m));
+      const Dye colour = dyed(cloth, x_m, y_m) * (weave * folds(cloth.seed, x_m, y_m));
       image.at<cv::Vec3b>(row, column) = cv::Vec3b(cv::saturate_cast<unsigned char>(colour[0]),
                                                    cv::saturate_cast<unsigned char>(colour[1]),
                                                    cv::saturate_cast<unsigned char>(colour[2]));

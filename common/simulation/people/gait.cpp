@@ -19,11 +19,6 @@ constexpr double kLiftM = 0.055;      // of the sole in mid-swing
 constexpr double kHeelStrikeRad = 0.30;
 constexpr double kPushOffRad = 0.65;
 
-SE3 to_transform(const FloorPose& pose) {
-  return {Eigen::Quaterniond(Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ())),
-          {pose.position_m.x(), pose.position_m.y(), 0.0}};
-}
-
 /// Where a foot of one who stands at `pose` is.
 FloorPose foot_place(const Skeleton& skeleton, const FloorPose& pose, Side side) {
   return {moved_by(pose, {0.0, sign_of(side) * half_stance_m(skeleton)}),

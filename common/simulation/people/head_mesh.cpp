@@ -9,10 +9,6 @@
 namespace tsg::simulation {
 namespace {
 
-constexpr std::size_t kHead = index_of(Bone::kHead);
-constexpr std::size_t kNeck = index_of(Bone::kNeck);
-constexpr std::size_t kChest = index_of(Bone::kChest);
-
 std::vector<Ring> head_rings(float scale) {
   std::vector<Ring> rings;
   for (const HeadLevel& level : head_levels()) {

@@ -49,6 +49,11 @@ std::vector<std::vector<Eigen::Vector2d>> walkable_parts(
   return parts;
 }
 
+SE3 to_transform(const FloorPose& pose) {
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ())),
+          {pose.position_m.x(), pose.position_m.y(), 0.0}};
+}
+
 Eigen::Vector2d moved_by(const FloorPose& pose, const Eigen::Vector2d& offset_m) {
   return pose.position_m + Eigen::Rotation2Dd(pose.yaw_rad) * offset_m;
 }

@@ -93,6 +93,9 @@ class SpeedProfile {
 [[nodiscard]] std::vector<std::vector<Eigen::Vector2d>> walkable_parts(
     const std::vector<Eigen::Vector2d>& corners_m);
 
+/// The same pose in space, on the floor.
+[[nodiscard]] SE3 to_transform(const FloorPose& pose);
+
 /// `pose` moved by `offset_m`, which is in its axes.
 [[nodiscard]] Eigen::Vector2d moved_by(const FloorPose& pose, const Eigen::Vector2d& offset_m);
 

@@ -30,6 +30,13 @@ inline constexpr std::size_t kBones = kTrunkBones + 2 * kLimbBones;
   return kTrunkBones + kLimbBones * index_of(side) + static_cast<std::size_t>(bone);
 }
 
+// As indices.
+inline constexpr std::size_t kPelvis = index_of(Bone::kPelvis);
+inline constexpr std::size_t kSpine = index_of(Bone::kSpine);
+inline constexpr std::size_t kChest = index_of(Bone::kChest);
+inline constexpr std::size_t kNeck = index_of(Bone::kNeck);
+inline constexpr std::size_t kHead = index_of(Bone::kHead);
+
 /// Where the joints are while a person stands at rest: arms held off the body by
 /// kRestArmAngle, feet together. Person's axes: origin on the floor below the pelvis, front +x.
 /// A bone's axes have their origin at its upper joint and at rest point the same way.

@@ -22,11 +22,6 @@ Eigen::Vector3d held_at(const Segment& segment, double time_s) {
                       eased(progress_of(segment, time_s)));
 }
 
-SE3 to_transform(const FloorPose& pose) {
-  return {Eigen::Quaterniond(Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ())),
-          {pose.position_m.x(), pose.position_m.y(), 0.0}};
-}
-
 /// Both hands to the sides of a thing whose base is at `base_m`; the trunk goes along.
 void reach_for(const Skeleton& skeleton,
                const Held& held,

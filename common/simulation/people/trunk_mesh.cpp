@@ -9,11 +9,6 @@
 namespace tsg::simulation {
 namespace {
 
-constexpr std::size_t kPelvis = index_of(Bone::kPelvis);
-constexpr std::size_t kSpine = index_of(Bone::kSpine);
-constexpr std::size_t kChest = index_of(Bone::kChest);
-constexpr std::size_t kNeck = index_of(Bone::kNeck);
-
 /// A level cross-section of a body of 1.75 m.
 struct Level {
   float z;

@@ -11,7 +11,7 @@
 namespace tsg::simulation {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr std::uint64_t kColourNoise = 16;
 // Of full white: 0.0025 in the dark, 0.011 at white, as small sensors have it at 30 Hz indoors.
 constexpr float kReadNoise = 0.0025F;
@@ -47,12 +47,12 @@ ColourSensor::ColourSensor(const SensorDescription& sensor,
     : sensor_(sensor),
       noise_(noise),
       exposure_(exposure),
-      drift_phase_rad_(Random(seed_of(seed, "exposure")).uniform(0.0, kTurn)) {}
+      drift_phase_rad_(Random(seed_of(seed, "exposure")).uniform(0.0, kTwoPi)) {}
 
 float ColourSensor::exposure_at(double time_s) const {
   if (!sensor_.exposure_drift) return static_cast<float>(exposure_);
-  const double slow = 0.07 * std::sin(kTurn * time_s / 7.3 + drift_phase_rad_);
-  const double quick = 0.03 * std::sin(kTurn * time_s / 2.9 + 2.0 * drift_phase_rad_);
+  const double slow = 0.07 * std::sin(kTwoPi * time_s / 7.3 + drift_phase_rad_);
+  const double quick = 0.03 * std::sin(kTwoPi * time_s / 2.9 + 2.0 * drift_phase_rad_);
   return static_cast<float>(exposure_ * (1.0 + slow + quick));
 }
 

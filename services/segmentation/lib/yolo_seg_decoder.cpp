@@ -13,8 +13,6 @@ namespace tsg {
 
 namespace {
 
-constexpr std::size_t kBoxNumbers = 4;
-
 /// False where any value is NaN or infinite: those have all bits of the exponent set.
 bool is_all_finite(std::span<const float> values) {
   constexpr std::uint32_t kExponent = 0x7F800000U;
@@ -35,7 +33,7 @@ struct BestClasses {
 BestClasses best_classes(const YoloSegLayout& layout, std::span<const float> anchors) {
   const auto count = static_cast<std::size_t>(layout.anchors);
   BestClasses best{std::vector<float>(count, 0.0F), std::vector<int>(count, 0)};
-  const float* scores = anchors.data() + kBoxNumbers * count;
+  const float* scores = anchors.data() + static_cast<std::size_t>(kBoxNumbers) * count;
   for (int class_id = 0; class_id < layout.classes(); ++class_id, scores += count) {
     for (std::size_t i = 0; i < count; ++i) {
       const bool is_better = scores[i] > best.scores[i];
@@ -76,7 +74,7 @@ std::vector<YoloSegDetection> without_duplicates(const std::vector<YoloSegDetect
 std::vector<float> coefficients_of(const MaskContext& context, int anchor) {
   const YoloSegLayout& layout = context.layout;
   const auto count = static_cast<std::size_t>(layout.anchors);
-  const auto first = kBoxNumbers + layout.class_names.size();
+  const auto first = static_cast<std::size_t>(kBoxNumbers + layout.classes());
   std::vector<float> coefficients(static_cast<std::size_t>(layout.coefficients));
   for (std::size_t i = 0; i < coefficients.size(); ++i) {
     coefficients[i] =

@@ -9,7 +9,6 @@ namespace tsg {
 
 namespace {
 
-constexpr int kBoxNumbers = 4;
 constexpr std::size_t kMaxNameBytes = 31;   // what a message has room for
 constexpr std::int64_t kLongest = 1 << 20;  // of any dimension; more is a damaged file
 constexpr const char* kHowToExport =

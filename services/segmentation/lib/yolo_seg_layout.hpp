@@ -10,6 +10,9 @@
 
 namespace tsg {
 
+/// Numbers per anchor that make its box.
+inline constexpr int kBoxNumbers = 4;
+
 /// A YOLOv8/11-seg network as its exporter lays it out:
 ///   input   [1, 3, H, W]           RGB, 0..1
 ///   first   [1, 4 + C + M, A]      per anchor: centre x, centre y, width, height (input pixels),

@@ -11,16 +11,16 @@
 namespace tsg {
 namespace {
 
-constexpr double kHuber = 2.5;               // standard deviations in three dimensions
-constexpr std::size_t kManyCameras = 100;    // from here on most pairs see nothing in common
-constexpr double kFunctionTolerance = 1e-4;  // relative; further down is below the noise
+constexpr double kBundleHuber = 2.5;       // standard deviations in three dimensions
+constexpr std::size_t kManyCameras = 100;  // from here on most pairs see nothing in common
+constexpr double kBundleTolerance = 1e-4;  // relative; further down is below the noise
 
 ceres::Solver::Options make_options(const BundleLimits& limits, std::size_t cameras) {
   ceres::Solver::Options options;
   options.linear_solver_type = cameras < kManyCameras ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
   options.num_threads = 1;  // more would sum in another order from run to run
   options.max_num_iterations = limits.max_iterations;
-  options.function_tolerance = kFunctionTolerance;
+  options.function_tolerance = kBundleTolerance;
   options.logging_type = ceres::SILENT;
   if (limits.time_budget_s > 0.0) options.max_solver_time_in_seconds = limits.time_budget_s;
   return options;
@@ -32,8 +32,8 @@ void build(const ObservationModel& model,
            std::vector<PoseBlock>& poses,
            ceres::Problem& solver_problem,
            ceres::ParameterBlockOrdering& ordering) {
-  auto* manifold = new LeftTwistManifold;     // owned by solver_problem
-  auto* loss = new ceres::HuberLoss(kHuber);  // owned by solver_problem
+  auto* manifold = new LeftTwistManifold;           // owned by solver_problem
+  auto* loss = new ceres::HuberLoss(kBundleHuber);  // owned by solver_problem
   poses.reserve(problem.cameras.size());
   for (const BundleProblem::Camera& camera : problem.cameras) {
     poses.push_back(to_pose_block(camera.T_camera_world));

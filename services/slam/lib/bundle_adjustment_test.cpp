@@ -10,16 +10,16 @@
 namespace tsg {
 namespace {
 
-constexpr double kStep = 1e-6;
+constexpr double kDifference = 1e-6;
 
-const ObservationModel kModel(synthetic::camera(), SlamConfig{});
+const ObservationModel kBundleModel(synthetic::camera(), SlamConfig{});
 
 TEST(ReprojectionCost, DerivativesAgreeWithNumericOnes) {
   std::mt19937 generator(1);
   const SE3 T_camera_world = synthetic::pose_at(0.2, -0.1, 0.3, 0.2);
   const LeftTwistManifold manifold;
   for (const Eigen::Vector3d& point : synthetic::random_points(generator, 20)) {
-    const ReprojectionCost cost(kModel, {Eigen::Vector2d(300.0, 200.0), 0.4, 1.25});
+    const ReprojectionCost cost(kBundleModel, {Eigen::Vector2d(300.0, 200.0), 0.4, 1.25});
     const PoseBlock pose = to_pose_block(T_camera_world);
     const double* parameters[] = {pose.data(), point.data()};
     Eigen::Vector3d residual;
@@ -29,21 +29,21 @@ TEST(ReprojectionCost, DerivativesAgreeWithNumericOnes) {
     ASSERT_TRUE(cost.Evaluate(parameters, residual.data(), jacobians));
     for (int k = 0; k < 6; ++k) {
       Vector6d delta = Vector6d::Zero();
-      delta[k] = kStep;
+      delta[k] = kDifference;
       PoseBlock moved{};
       ASSERT_TRUE(manifold.Plus(pose.data(), delta.data(), moved.data()));
       const double* moved_parameters[] = {moved.data(), point.data()};
       Eigen::Vector3d there;
       ASSERT_TRUE(cost.Evaluate(moved_parameters, there.data(), nullptr));
-      EXPECT_LT(((there - residual) / kStep - J_pose.col(k)).norm(), 0.01) << "twist " << k;
+      EXPECT_LT(((there - residual) / kDifference - J_pose.col(k)).norm(), 0.01) << "twist " << k;
     }
     for (int k = 0; k < 3; ++k) {
       Eigen::Vector3d moved = point;
-      moved[k] += kStep;
+      moved[k] += kDifference;
       const double* moved_parameters[] = {pose.data(), moved.data()};
       Eigen::Vector3d there;
       ASSERT_TRUE(cost.Evaluate(moved_parameters, there.data(), nullptr));
-      EXPECT_LT(((there - residual) / kStep - J_point.col(k)).norm(), 0.01) << "point " << k;
+      EXPECT_LT(((there - residual) / kDifference - J_point.col(k)).norm(), 0.01) << "point " << k;
     }
   }
 }
@@ -93,7 +93,7 @@ NoisyBundle make_bundle(unsigned seed) {
 
 TEST(BundleAdjustment, BringsCamerasAndPointsBackToTheTruth) {
   NoisyBundle bundle = make_bundle(2);
-  const BundleSummary summary = adjust_bundle(kModel, {.max_iterations = 30}, bundle.noisy);
+  const BundleSummary summary = adjust_bundle(kBundleModel, {.max_iterations = 30}, bundle.noisy);
   ASSERT_TRUE(summary.usable);
   EXPECT_LT(summary.final_cost, 1e-4 * summary.initial_cost);
   for (std::size_t i = 0; i < bundle.truth.cameras.size(); ++i) {
@@ -105,7 +105,7 @@ TEST(BundleAdjustment, BringsCamerasAndPointsBackToTheTruth) {
 
 TEST(BundleAdjustment, KeepsTheGaugeByLeavingFixedCamerasExactlyWhereTheyAre) {
   NoisyBundle bundle = make_bundle(3);
-  ASSERT_TRUE(adjust_bundle(kModel, {}, bundle.noisy).usable);
+  ASSERT_TRUE(adjust_bundle(kBundleModel, {}, bundle.noisy).usable);
   EXPECT_EQ(bundle.noisy.cameras[0].T_camera_world.translation(),
             bundle.truth.cameras[0].T_camera_world.translation());
   EXPECT_EQ(bundle.noisy.cameras[0].T_camera_world.rotation().coeffs(),
@@ -116,7 +116,7 @@ TEST(BundleAdjustment, StopsAfterTheIterationInWhichItIsAskedTo) {
   NoisyBundle bundle = make_bundle(4);
   int asked = 0;
   const BundleLimits limits{.max_iterations = 30, .must_stop = [&asked] { return ++asked >= 2; }};
-  const BundleSummary summary = adjust_bundle(kModel, limits, bundle.noisy);
+  const BundleSummary summary = adjust_bundle(kBundleModel, limits, bundle.noisy);
   EXPECT_TRUE(summary.usable);
   EXPECT_EQ(asked, 2);
   EXPECT_LT(summary.final_cost, summary.initial_cost);
@@ -125,8 +125,8 @@ TEST(BundleAdjustment, StopsAfterTheIterationInWhichItIsAskedTo) {
 TEST(BundleAdjustment, OfTheSameProblemGivesTheSameBits) {
   NoisyBundle first = make_bundle(5);
   NoisyBundle second = make_bundle(5);
-  ASSERT_TRUE(adjust_bundle(kModel, {}, first.noisy).usable);
-  ASSERT_TRUE(adjust_bundle(kModel, {}, second.noisy).usable);
+  ASSERT_TRUE(adjust_bundle(kBundleModel, {}, first.noisy).usable);
+  ASSERT_TRUE(adjust_bundle(kBundleModel, {}, second.noisy).usable);
   for (std::size_t i = 0; i < first.noisy.points.size(); ++i) {
     EXPECT_EQ(first.noisy.points[i], second.noisy.points[i]);
   }
@@ -134,7 +134,7 @@ TEST(BundleAdjustment, OfTheSameProblemGivesTheSameBits) {
 
 TEST(BundleAdjustment, OfNothingIsNotUsable) {
   BundleProblem nothing;
-  EXPECT_FALSE(adjust_bundle(kModel, {}, nothing).usable);
+  EXPECT_FALSE(adjust_bundle(kBundleModel, {}, nothing).usable);
 }
 
 }  // namespace

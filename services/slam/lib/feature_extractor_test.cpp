@@ -11,14 +11,14 @@
 namespace tsg {
 namespace {
 
-const synthetic::Scene& room() {
+const synthetic::Scene& empty_room() {
   static const synthetic::Scene kRoom = synthetic::Scene::room();
   return kRoom;
 }
 
 TEST(FeatureExtractor, SpreadsFeaturesOverTheWholeImage) {
   FeatureExtractor extractor(FeatureConfig{}, synthetic::camera());
-  const Features features = extractor.extract(room().render(0, SE3()), {});
+  const Features features = extractor.extract(empty_room().render(0, SE3()), {});
   EXPECT_GE(features.size(), 900U);
   EXPECT_LE(features.size(), 1000U);
   std::array<int, 16> counts{};
@@ -30,9 +30,9 @@ TEST(FeatureExtractor, SpreadsFeaturesOverTheWholeImage) {
 
 TEST(FeatureExtractor, FindsTheSameInTheSameImage) {
   FeatureExtractor used(FeatureConfig{}, synthetic::camera());
-  (void)used.extract(room().render(0, synthetic::pose_at(0.3, 0.0, 0.0)), {});
+  (void)used.extract(empty_room().render(0, synthetic::pose_at(0.3, 0.0, 0.0)), {});
   FeatureExtractor fresh(FeatureConfig{}, synthetic::camera());
-  const RgbdFrame frame = room().render(1, SE3());
+  const RgbdFrame frame = empty_room().render(1, SE3());
   const Features a = used.extract(frame, {});
   const Features b = fresh.extract(frame, {});
   ASSERT_EQ(a.size(), b.size());
@@ -45,14 +45,14 @@ TEST(FeatureExtractor, LeavesOutDynamicPixelsAndCountsThem) {
   verdicts(cv::Rect(0, 0, 320, 480)) = static_cast<double>(FeatureVerdict::kDynamic);
   verdicts(cv::Rect(320, 0, 320, 240)) = static_cast<double>(FeatureVerdict::kPotentiallyDynamic);
   FeatureExtractor extractor(FeatureConfig{}, synthetic::camera());
-  const Features features = extractor.extract(room().render(0, SE3()), verdicts);
+  const Features features = extractor.extract(empty_room().render(0, SE3()), verdicts);
   EXPECT_GT(features.counts.dynamic, 100);
   EXPECT_GT(features.counts.potentially_dynamic, 100);
   for (const Feature& feature : features.items) EXPECT_GE(feature.raw_x, 320);
 }
 
 TEST(FeatureExtractor, FindsNothingInABlankImage) {
-  RgbdFrame frame = room().render(0, SE3());
+  RgbdFrame frame = empty_room().render(0, SE3());
   frame.colour = cv::Scalar::all(127);
   FeatureExtractor extractor(FeatureConfig{}, synthetic::camera());
   EXPECT_EQ(extractor.extract(frame, {}).size(), 0U);
@@ -62,7 +62,7 @@ TEST(FeatureExtractor, UndistortsPixelsAndKeepsTheRawOnes) {
   CameraModel camera = synthetic::camera();
   camera.distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};
   FeatureExtractor extractor(FeatureConfig{}, camera);
-  const Features features = extractor.extract(room().render(0, SE3()), {});
+  const Features features = extractor.extract(empty_room().render(0, SE3()), {});
   const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
   for (const Feature& feature : features.items) {
     const cv::Point3d ray((feature.pixel.x() - camera.cx) / camera.fx,
@@ -76,7 +76,7 @@ TEST(FeatureExtractor, UndistortsPixelsAndKeepsTheRawOnes) {
 }
 
 TEST(OrientedBrief, StaysAlikeWhenTheImageTurns) {
-  const cv::Mat frame = room().render(0, SE3()).colour;
+  const cv::Mat frame = empty_room().render(0, SE3()).colour;
   cv::Mat grey;
   cv::cvtColor(frame, grey, cv::COLOR_BGR2GRAY);
   cv::GaussianBlur(grey, grey, {7, 7}, 2.0);

@@ -5,12 +5,12 @@
 #include <unordered_set>
 
 #include "services/slam/lib/feature_matcher.hpp"
+#include "services/slam/lib/nearest_depth.hpp"
 #include "services/slam/lib/point_projection.hpp"
 
 namespace tsg {
 namespace {
 
-constexpr double kMinDepth = 0.1;         // metres
 constexpr float kMovedDepthError = 0.1F;  // 1/m: the prediction may be off by 10 cm at 1 m
 constexpr double kMapDepthSigmas = 12.0;  // of inverse depth: the pose is nearly right
 constexpr MatchLimits kLastFrameLimits{.max_distance = 80, .max_ratio = 0.95F};

@@ -4,20 +4,21 @@
 #include <unordered_set>
 
 #include "services/slam/lib/map_motion.hpp"
+#include "services/slam/lib/nearest_depth.hpp"
 
 namespace tsg {
 namespace {
 
-constexpr int kRounds = 2;  // the second without the sightings that the first showed to be wrong
-constexpr int kIterations = 10;    // of a round
-constexpr double kMinDepth = 0.1;  // metres; a point that near or behind is a wrong sighting
+constexpr int kAdjustmentRounds =
+    2;  // the second without the sightings that the first showed to be wrong
+constexpr int kRoundIterations = 10;  // of a round
 // A point that one keyframe sees says nothing of poses; it moves along with its keyframe.
-constexpr std::size_t kMinObservations = 2;
+constexpr std::size_t kMinSightings = 2;
 
 }  // namespace
 
 FullAdjustment::FullAdjustment(const Map& map, const ObservationModel& model, MapPart part)
-    : rounds_left_(kRounds), iterations_left_(kIterations) {
+    : rounds_left_(kAdjustmentRounds), iterations_left_(kRoundIterations) {
   for (const auto& [id, keyframe] : map.keyframes()) {
     if (keyframe.part != part) continue;
     problem_.cameras.push_back({keyframe.T_world_camera.inverse(), part_begun_by(id) == part});
@@ -34,7 +35,7 @@ FullAdjustment::FullAdjustment(const Map& map, const ObservationModel& model, Ma
 void FullAdjustment::add_point(const Map& map,
                                const ObservationModel& model,
                                const MapPoint& point) {
-  if (point.observations.size() < kMinObservations) return;
+  if (point.observations.size() < kMinSightings) return;
   points_.push_back(point.id);
   problem_.points.push_back(point.position);
   for (const Observation& observation : point.observations) {
@@ -54,7 +55,7 @@ void FullAdjustment::advance(const ObservationModel& model,
     iterate(model, must_stop);
     if (iterations_left_ > 0) return;
     --rounds_left_;
-    iterations_left_ = kIterations;
+    iterations_left_ = kRoundIterations;
     take_out_misfits(model);
   }
 }

@@ -5,12 +5,10 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "services/slam/lib/nearest_depth.hpp"
+
 namespace tsg {
-namespace {
-
-constexpr double kMinDepth = 0.1;  // metres; a point that near or behind is a wrong sighting
-
-}  // namespace
+namespace {}  // namespace
 
 LocalWindow::LocalWindow(const Map& map,
                          const ObservationModel& model,

@@ -11,7 +11,7 @@ namespace {
 
 using synthetic::pose_at;
 
-constexpr double kStep = 0.5;  // metres between keyframes
+constexpr double kStride = 0.5;  // metres between keyframes
 
 /// A way along a wall, once round a rectangle of 5 m x 4 m, and a bit of the same again. Views that
 /// are not neighbours have nothing in common, until the way closes.
@@ -25,10 +25,10 @@ std::vector<SE3> way_round() {
       poses.push_back(pose_at(at.x(), at.y(), at.z()));
     }
   };
-  walk(kStep, 0.0, 11);
-  walk(0.0, -kStep, 8);
-  walk(-kStep, 0.0, 10);
-  walk(0.0, kStep, 8);
+  walk(kStride, 0.0, 11);
+  walk(0.0, -kStride, 8);
+  walk(-kStride, 0.0, 10);
+  walk(0.0, kStride, 8);
   walk(0.1, 0.02, 4);
   return poses;
 }

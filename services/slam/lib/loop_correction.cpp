@@ -9,7 +9,7 @@
 namespace tsg {
 namespace {
 
-constexpr int kStrong = 100;             // shared points: such pairs hold each other well
+constexpr int kStrongLink = 100;         // shared points: such pairs hold each other well
 constexpr double kSigmaMetres = 0.003;   // of the relative pose of two keyframes that are close
 constexpr double kSigmaPerMetre = 0.01;  // and of those further apart
 constexpr double kSigmaRadians = 0.001;
@@ -41,7 +41,7 @@ void add_edges(const Map& map,
   };
   bool has_previous = previous == nullptr;
   for (const Covisibility& neighbour : map.covisible_with(keyframe)) {
-    if (neighbour.shared < kStrong) break;
+    if (neighbour.shared < kStrongLink) break;
     if (neighbour.keyframe > keyframe.id) continue;
     join(map.keyframe(neighbour.keyframe), 1.0);
     has_previous = has_previous || neighbour.keyframe == previous->id;

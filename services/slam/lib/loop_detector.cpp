@@ -7,7 +7,7 @@
 namespace tsg {
 namespace {
 
-constexpr int kMinMatches = 15;          // by looks; verification asks for more
+constexpr int kMinLoopMatches = 15;      // by looks; verification asks for more
 constexpr std::size_t kMaxVerified = 3;  // candidates per keyframe; bounds the time
 constexpr int kHops = 2;                 // in the covisibility graph: so near is no loop
 constexpr KeyframeId kRecent = 10;       // keyframes before the newest: no loop either
@@ -97,7 +97,8 @@ std::optional<VerifiedView> LoopDetector::look_up(
     const std::unordered_set<KeyframeId>& connected) const {
   const LoopVerifier verifier(model_, config_.loop, map);
   std::size_t verified = 0;
-  for (const PlaceCandidate& candidate : index.query(*newest.features, connected, kMinMatches)) {
+  for (const PlaceCandidate& candidate :
+       index.query(*newest.features, connected, kMinLoopMatches)) {
     if (verified++ == kMaxVerified) break;
     auto view = verifier.verify(newest, candidate.keyframe);
     if (view && is_plausible(map, newest, *view)) return view;

@@ -17,7 +17,7 @@ constexpr int kFirstInliers = 12;      // matches by looks that agree: enough to
 constexpr double kWideRadius = 12.0;   // pixels: after a first pose by few matches
 constexpr double kFarRadius = 30.0;    // pixels: where the pose is foretold
 constexpr double kNarrowRadius = 4.0;  // pixels: after a pose by many
-constexpr double kDepthGateSigmas = 12.0;
+constexpr double kLoopGateSigmas = 12.0;
 constexpr std::size_t kNeighbours = 10;  // keyframes around the candidate whose points are searched
 
 }  // namespace
@@ -55,7 +55,7 @@ void LoopVerifier::match_neighbourhood(const Keyframe& candidate,
   }
   const ProjectionSearch search{.T_camera_world = T_world_camera.inverse(),
                                 .radius = radius_px,
-                                .depth_gate_sigmas = kDepthGateSigmas};
+                                .depth_gate_sigmas = kLoopGateSigmas};
   const std::vector<PointId> before = matches.points();
   std::unordered_set<PointId> known(before.begin(), before.end());
   std::vector<const MapPoint*> points;

@@ -16,9 +16,9 @@ constexpr std::size_t kBuckets = std::size_t{1} << kKeyBits;  // of one table
 constexpr int kMaxSketchDistance = 15;     // of 64; one feature from two views: 8 on average
 constexpr std::size_t kMaxNearest = 10;    // keyframes that a feature votes for ...
 constexpr std::size_t kNearestShare = 10;  // ... and at most one in so many
-constexpr int kMaxDistance = 60;           // of 256; chance meetings are mostly farther apart
+constexpr int kMaxVoteDistance = 60;       // of 256; chance meetings are mostly farther apart
 constexpr std::size_t kMaxBucket = 256;    // bounds time and memory where descriptors are all alike
-constexpr unsigned kSeed = 4711;           // any; which bits are chosen does not matter much
+constexpr unsigned kBitsSeed = 4711;       // any; which bits are chosen does not matter much
 
 /// The bits of a descriptor in a fixed random order: sketch first, then table after table. No bit
 /// serves twice, so that agreement in one table says something new about the others.
@@ -26,7 +26,7 @@ const std::array<std::uint8_t, 256>& bit_order() {
   static const std::array<std::uint8_t, 256> kOrder = [] {
     std::array<std::uint8_t, 256> order{};
     std::iota(order.begin(), order.end(), std::uint8_t{0});
-    std::mt19937 generator(kSeed);
+    std::mt19937 generator(kBitsSeed);
     // std::shuffle may differ between standard libraries; this does not.
     for (std::size_t i = order.size() - 1; i > 0; --i) {
       std::swap(order[i], order[generator() % (i + 1)]);
@@ -236,7 +236,7 @@ PlaceCandidate PlaceIndex::check(std::uint16_t slot,
   for (const Vote& vote : votes) {
     if (vote.slot != slot) continue;
     const Descriptor& asked = features.descriptors[vote.asked];
-    if (hamming_distance(asked, theirs[vote.feature]) > kMaxDistance) continue;
+    if (hamming_distance(asked, theirs[vote.feature]) > kMaxVoteDistance) continue;
     ++candidate.matches;
     candidate.score += vote.weight;
   }

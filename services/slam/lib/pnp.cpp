@@ -6,12 +6,12 @@
 namespace tsg {
 namespace {
 
-constexpr int kIterations = 300;
+constexpr int kPnpIterations = 300;
 constexpr float kMaxReprojectionError = 6.0F;  // pixels; optimisation judges more strictly
 constexpr double kConfidence = 0.995;
-constexpr std::size_t kMinMatches = 6;
+constexpr std::size_t kMinPnpMatches = 6;
 
-SE3 to_se3(const cv::Vec3d& rotation_vector, const cv::Vec3d& translation) {
+SE3 from_opencv(const cv::Vec3d& rotation_vector, const cv::Vec3d& translation) {
   const Eigen::Vector3d axis(rotation_vector[0], rotation_vector[1], rotation_vector[2]);
   const double angle = axis.norm();
   const Eigen::Quaterniond rotation =
@@ -33,13 +33,13 @@ std::optional<SE3> ransac(const CameraModel& camera, const std::vector<PointMatc
   cv::Vec3d translation;
   try {
     const bool found = cv::solvePnPRansac(points, pixels, K, cv::noArray(), rotation_vector,
-                                          translation, false, kIterations, kMaxReprojectionError,
+                                          translation, false, kPnpIterations, kMaxReprojectionError,
                                           kConfidence, cv::noArray(), cv::SOLVEPNP_AP3P);
     if (!found) return std::nullopt;
   } catch (const cv::Exception&) {
     return std::nullopt;  // degenerate samples only: there is no pose to be had from them
   }
-  const SE3 T_camera_world = to_se3(rotation_vector, translation);
+  const SE3 T_camera_world = from_opencv(rotation_vector, translation);
   if (!T_camera_world.is_finite()) return std::nullopt;
   return T_camera_world;
 }
@@ -49,7 +49,7 @@ std::optional<SE3> ransac(const CameraModel& camera, const std::vector<PointMatc
 std::optional<PoseEstimate> solve_pnp(const ObservationModel& model,
                                       const std::vector<PointMatch>& matches,
                                       int min_inliers) {
-  if (matches.size() < kMinMatches) return std::nullopt;
+  if (matches.size() < kMinPnpMatches) return std::nullopt;
   const std::optional<SE3> T_camera_world = ransac(model.camera(), matches);
   if (!T_camera_world) return std::nullopt;
   PoseEstimate estimate = optimise_pose(model, matches, *T_camera_world);

@@ -10,9 +10,9 @@
 namespace tsg {
 namespace {
 
-constexpr double kSearchRadius = 3.0;     // pixels of the level: both poses are known well
-constexpr double kDepthGateSigmas = 8.0;  // of inverse depth: two measurements and the pose
-constexpr int kMaxDistance = 50;          // of descriptors: merging wrongly hurts for good
+constexpr double kSearchRadius = 3.0;      // pixels of the level: both poses are known well
+constexpr double kFusionGateSigmas = 8.0;  // of inverse depth: two measurements and the pose
+constexpr int kMaxFusionDistance = 50;     // of descriptors: merging wrongly hurts for good
 
 /// Joins point `id` with what `feature` of `keyframe` shows.
 void join(Map& map, PointId id, Keyframe& keyframe, int feature) {
@@ -43,7 +43,7 @@ void fuse_points_into(Map& map,
   Keyframe& keyframe = *map.find_keyframe(keyframe_id);
   const ProjectionSearch search{.T_camera_world = keyframe.T_world_camera.inverse(),
                                 .radius = radius,
-                                .depth_gate_sigmas = kDepthGateSigmas};
+                                .depth_gate_sigmas = kFusionGateSigmas};
   std::vector<MatchTarget> targets;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const MapPoint* point = map.find_point(points[i]);
@@ -57,7 +57,7 @@ void fuse_points_into(Map& map,
     }
   }
   const auto matches = match_by_projection(*keyframe.features, targets, {},
-                                           {.max_distance = kMaxDistance, .max_ratio = 1.0F});
+                                           {.max_distance = kMaxFusionDistance, .max_ratio = 1.0F});
   for (const FeatureMatch& match : matches) {
     const PointId id = points[static_cast<std::size_t>(match.source)];
     // A merge before may have taken this point.

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include "services/slam/lib/nearest_depth.hpp"
+
 namespace tsg {
 namespace {
 
-constexpr double kMinDepth = 0.1;       // metres
 constexpr double kRangeMargin = 1.2;    // one level of scale beyond what was seen
 constexpr double kMinViewCosine = 0.5;  // 60 degrees: further round a patch looks different
 

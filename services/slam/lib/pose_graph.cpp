@@ -9,7 +9,7 @@ namespace tsg {
 namespace {
 
 constexpr int kMaxIterations = 50;
-constexpr double kFunctionTolerance = 1e-6;  // relative
+constexpr double kGraphTolerance = 1e-6;  // relative
 
 /// What an edge misses by: log(T_a_b^-1 * T_a_world * T_world_b), weighted.
 class EdgeCost final : public ceres::SizedCostFunction<6, 7, 7> {
@@ -95,7 +95,7 @@ bool relax(PoseGraph& graph, const std::function<bool()>& must_stop) {
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.num_threads = 1;  // more would sum in another order from run to run
   options.max_num_iterations = kMaxIterations;
-  options.function_tolerance = kFunctionTolerance;
+  options.function_tolerance = kGraphTolerance;
   options.logging_type = ceres::SILENT;
   SolverStop stop(must_stop);
   options.callbacks.push_back(&stop);

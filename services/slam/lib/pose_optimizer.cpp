@@ -6,18 +6,18 @@
 namespace tsg {
 namespace {
 
-constexpr int kRounds = 4;
-constexpr int kIterations = 6;       // per round; two or three suffice after the first
-constexpr int kMinInliers = 3;       // below it 6 unknowns are not determined
-constexpr double kHuber = 1.5;       // standard deviations: quadratic below, linear above
-constexpr double kConverged = 1e-7;  // metres and radians
-constexpr double kMinDepth = 0.05;   // metres; nothing nearer is seen
+constexpr int kPoseRounds = 4;
+constexpr int kStepsPerRound = 6;      // per round; two or three suffice after the first
+constexpr int kMinInliers = 3;         // below it 6 unknowns are not determined
+constexpr double kPoseHuber = 1.5;     // standard deviations: quadratic below, linear above
+constexpr double kConverged = 1e-7;    // metres and radians
+constexpr double kNearestSeen = 0.05;  // metres; nothing nearer is seen
 constexpr double kInitialDamping = 1e-6;
 constexpr double kMaxDamping = 1e3;
 
-double huber_weight(double norm) { return norm <= kHuber ? 1.0 : kHuber / norm; }
+double huber_weight(double norm) { return norm <= kPoseHuber ? 1.0 : kPoseHuber / norm; }
 double huber_cost(double norm) {
-  return norm <= kHuber ? 0.5 * norm * norm : kHuber * (norm - 0.5 * kHuber);
+  return norm <= kPoseHuber ? 0.5 * norm * norm : kPoseHuber * (norm - 0.5 * kPoseHuber);
 }
 
 struct NormalEquations {
@@ -37,7 +37,7 @@ NormalEquations linearise(const ObservationModel& model,
     if (!used[i]) continue;
     const PointObservation& observation = matches[i].observation;
     const Eigen::Vector3d p_camera = T_camera_world * matches[i].p_world;
-    if (p_camera.z() < kMinDepth) continue;
+    if (p_camera.z() < kNearestSeen) continue;
     const Eigen::Vector3d residual = model.residual(observation, p_camera);
     const double pixel_norm = residual.head<2>().norm();
     const double depth_norm = std::abs(residual.z());
@@ -60,7 +60,7 @@ double total_cost(const ObservationModel& model,
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (!used[i]) continue;
     const Eigen::Vector3d p_camera = T_camera_world * matches[i].p_world;
-    if (p_camera.z() < kMinDepth) continue;
+    if (p_camera.z() < kNearestSeen) continue;
     const Eigen::Vector3d residual = model.residual(matches[i].observation, p_camera);
     cost += huber_cost(residual.head<2>().norm()) + huber_cost(std::abs(residual.z()));
   }
@@ -93,7 +93,7 @@ SE3 descend(const ObservationModel& model,
   double damping = kInitialDamping;
   NormalEquations equations = linearise(model, matches, used, T_camera_world);
   add_prior(prior, T_camera_world, equations);
-  for (int i = 0; i < kIterations && damping < kMaxDamping; ++i) {
+  for (int i = 0; i < kStepsPerRound && damping < kMaxDamping; ++i) {
     Matrix6d damped = equations.H;
     damped.diagonal() *= 1.0 + damping;
     const Vector6d step = damped.ldlt().solve(equations.b);
@@ -123,7 +123,7 @@ int classify(const ObservationModel& model,
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const PointObservation& observation = matches[i].observation;
     const Eigen::Vector3d p_camera = T_camera_world * matches[i].p_world;
-    is_inlier[i] = p_camera.z() >= kMinDepth &&
+    is_inlier[i] = p_camera.z() >= kNearestSeen &&
                    ObservationModel::is_inlier(model.residual(observation, p_camera));
     if (is_inlier[i]) ++inliers;
   }
@@ -139,7 +139,7 @@ PoseEstimate optimise_pose(const ObservationModel& model,
   PoseEstimate estimate{.T_camera_world = T_camera_world,
                         .is_inlier = std::vector<bool>(matches.size(), true),
                         .inliers = static_cast<int>(matches.size())};
-  for (int round = 0; round < kRounds && estimate.inliers >= kMinInliers; ++round) {
+  for (int round = 0; round < kPoseRounds && estimate.inliers >= kMinInliers; ++round) {
     const std::vector<bool> before = estimate.is_inlier;
     estimate.T_camera_world = descend(model, matches, before, prior, estimate.T_camera_world);
     estimate.inliers = classify(model, matches, estimate.T_camera_world, estimate.is_inlier);

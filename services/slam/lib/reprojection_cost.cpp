@@ -5,7 +5,7 @@
 namespace tsg {
 namespace {
 
-constexpr double kMinDepth = 0.02;  // metres; nearer, a step is refused as the projection blows up
+constexpr double kSafeDepth = 0.02;  // metres; nearer, a step is refused as the projection blows up
 
 using Jacobian37 = Eigen::Matrix<double, 3, 7, Eigen::RowMajor>;
 using Jacobian33 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
@@ -55,7 +55,7 @@ bool ReprojectionCost::Evaluate(double const* const* parameters,
   const SE3 T_camera_world = to_se3(parameters[0]);
   const Eigen::Vector3d p_world = Eigen::Map<const Eigen::Vector3d>(parameters[1]);
   const Eigen::Vector3d p_camera = T_camera_world * p_world;
-  if (p_camera.z() < kMinDepth) return false;
+  if (p_camera.z() < kSafeDepth) return false;
   Eigen::Map<Eigen::Vector3d>{residuals} = model_->residual(observation_, p_camera);
   if (jacobians == nullptr) return true;
   const Eigen::Matrix3d J_point = model_->point_jacobian(observation_, p_camera);

@@ -5,11 +5,13 @@
 
 #include "services/slam/lib/local_mapper.hpp"
 #include "services/slam/lib/synthetic_scene.hpp"
+#include "services/slam/lib/synthetic_session.hpp"
 #include "services/slam/lib/tracker.hpp"
 
 namespace tsg {
 namespace {
 
+using synthetic::on_path;
 using testing::HasSubstr;
 
 class SlamTest : public testing::Test {
@@ -38,8 +40,6 @@ class SlamTest : public testing::Test {
   Tracker tracker_{SlamConfig{}, synthetic::camera()};
   LocalMapper mapper_{SlamConfig{}, synthetic::camera()};
 };
-
-SE3 on_path(int i) { return synthetic::pose_at(0.02 * i, 0.005 * i, 0.01 * i, 0.006 * i); }
 
 TEST_F(SlamTest, FollowsAMovingCameraWithinMillimetres) {
   for (int i = 0; i < 25; ++i) {

@@ -17,7 +17,7 @@ constexpr int kFitRadius = 2;           // cells: planes are fitted to 5x5 of th
 constexpr int kMinFitted = 13;          // of 25: more than half
 constexpr double kMaxFitSigmas = 4.0;   // further from the centre's inverse depth: another surface
 constexpr double kStepPerCell = 0.015;  // share of inverse depth that slopes change by, per cell
-constexpr double kMinViewCosine = 0.1;  // flatter: the depth of a cell is not one number
+constexpr double kMinCellCosine = 0.1;  // flatter: the depth of a cell is not one number
 
 /// Undistorted (x/z, y/z) of the centres of all cells.
 std::vector<Eigen::Vector2d> make_rays(const CameraModel& camera, const Surface& surface) {
@@ -66,7 +66,7 @@ std::optional<SurfacePatch> fit_patch(const Surface& surface,
     return std::nullopt;
   }
   const Eigen::Vector3d normal = -plane.normalized();
-  if (-normal.dot(ray.normalized()) < kMinViewCosine) return std::nullopt;
+  if (-normal.dot(ray.normalized()) < kMinCellCosine) return std::nullopt;
   return SurfacePatch{ray / inverse_depth, normal};
 }
 

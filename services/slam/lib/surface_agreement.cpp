@@ -3,24 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/slam/lib/nearest_depth.hpp"
+
 namespace tsg {
 namespace {
 
 constexpr int kStride = 2;          // cells: every fourth is enough to judge by
-constexpr double kMinDepth = 0.1;   // metres
 constexpr double kTolerance = 7.0;  // standard deviations: two measurements and the poses
 
-enum class Judgement { kNothing, kAgrees, kSeenThrough, kHidden };
+enum class CellVerdict { kNothing, kAgrees, kSeenThrough, kHidden };
 
 /// Compares an inverse depth with what the surface has around a pixel.
-Judgement judge(const Surface& surface,
-                const Eigen::Vector2d& pixel,
-                double inverse_depth,
-                double tolerance) {
+CellVerdict judge(const Surface& surface,
+                  const Eigen::Vector2d& pixel,
+                  double inverse_depth,
+                  double tolerance) {
   const int column = static_cast<int>(std::lround(pixel.x() / kSurfaceCell));
   const int row = static_cast<int>(std::lround(pixel.y() / kSurfaceCell));
   if (column < 1 || row < 1 || column + 1 >= surface.columns || row + 1 >= surface.rows) {
-    return Judgement::kNothing;
+    return CellVerdict::kNothing;
   }
   double nearest = 0.0;
   for (int y = row - 1; y <= row + 1; ++y) {
@@ -28,18 +29,18 @@ Judgement judge(const Surface& surface,
       const double seen = surface.at(x, y);
       // A hole may be anything: then the place is not judged, unless a neighbour agrees.
       if (seen <= 0.0) continue;
-      if (std::abs(seen - inverse_depth) <= tolerance) return Judgement::kAgrees;
+      if (std::abs(seen - inverse_depth) <= tolerance) return CellVerdict::kAgrees;
       nearest = std::max(nearest, seen);
     }
   }
-  if (surface.at(column, row) <= 0.0) return Judgement::kNothing;
-  return nearest < inverse_depth ? Judgement::kSeenThrough : Judgement::kHidden;
+  if (surface.at(column, row) <= 0.0) return CellVerdict::kNothing;
+  return nearest < inverse_depth ? CellVerdict::kSeenThrough : CellVerdict::kHidden;
 }
 
-void note(Judgement judgement, SurfaceAgreement& agreement) {
-  if (judgement == Judgement::kAgrees) ++agreement.agreeing;
-  if (judgement == Judgement::kSeenThrough) ++agreement.seen_through;
-  if (judgement == Judgement::kHidden) ++agreement.hidden;
+void note(CellVerdict judgement, SurfaceAgreement& agreement) {
+  if (judgement == CellVerdict::kAgrees) ++agreement.agreeing;
+  if (judgement == CellVerdict::kSeenThrough) ++agreement.seen_through;
+  if (judgement == CellVerdict::kHidden) ++agreement.hidden;
 }
 
 }  // namespace

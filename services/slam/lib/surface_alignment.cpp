@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 
+#include "services/slam/lib/nearest_depth.hpp"
+
 namespace tsg {
 namespace {
 
-constexpr int kIterations = 28;
+constexpr int kAlignmentSteps = 28;
 constexpr double kFirstGate = 0.3;    // metres: how far patches may lie apart at first ...
 constexpr double kLastGate = 0.05;    // ... and in the end
 constexpr double kGateShrink = 0.92;  // per iteration
@@ -20,13 +22,12 @@ constexpr int kFirstStride = 8;       // patches
 constexpr double kMiddleGate = 0.12;  // metres, of all patches, with the partner in front of them
 constexpr double kMinScatter = 0.1;   // so a rare direction weighs ten times the usual at most
 constexpr double kMinNormalCosine = 0.8;  // 37 degrees: a turn between frames and noise
-constexpr double kMinDepth = 0.1;         // metres
-constexpr double kHuber = 1.5;            // standard deviations
+constexpr double kSurfaceHuber = 1.5;     // standard deviations
 constexpr double kFitSigmas = 3.0;   // further from the plane a patch speaks against the alignment
 constexpr double kMinSigma = 0.003;  // metres: registration and lens, whatever the distance
 constexpr double kIndependent = 0.02;  // neighbouring samples err alike: share that counts
 constexpr double kStartSigma = 0.1;    // metres and radians: how good the start is
-constexpr double kConverged = 1e-5;    // metres and radians
+constexpr double kAligned = 1e-5;      // metres and radians
 constexpr int kMinPairs = 300;         // of some 7000: a twentieth of the image
 constexpr std::array kSlides = {-0.2, -0.1, 0.1, 0.2};  // metres or radians
 
@@ -115,7 +116,7 @@ class Aligner {
     const double sigma = std::max(kMinSigma, model_.inverse_depth_sigma() * z * z);
     const double residual = distance / sigma;
     const double rarity = 1.0 / std::max(kMinScatter, normal.dot(scatter_ * normal));
-    const double weight = rarity * std::min(1.0, kHuber / std::abs(residual));
+    const double weight = rarity * std::min(1.0, kSurfaceHuber / std::abs(residual));
     Vector6d J;
     J << -normal, -patch.point.cross(normal);
     J /= sigma;
@@ -136,7 +137,7 @@ std::optional<SurfaceAlignment> descend(const Aligner& aligner, const SE3& T_cam
   SurfaceAlignment alignment{.T_camera_reference = T_camera_reference};
   const double start_weight = 1.0 / (kIndependent * kStartSigma * kStartSigma);
   Search search{.gate = kFirstGate, .reach = kFirstReach, .stride = kFirstStride};
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < kAlignmentSteps; ++i) {
     if (i == kWideIterations) search = {.gate = kMiddleGate};
     const Sum sum = aligner.sum_up(alignment.T_camera_reference, search);
     if (sum.paired * search.stride < kMinPairs) return std::nullopt;
@@ -145,7 +146,7 @@ std::optional<SurfaceAlignment> descend(const Aligner& aligner, const SE3& T_cam
     const Matrix6d H = sum.H + damping * Matrix6d::Identity();
     const Vector6d step = H.ldlt().solve(sum.b - damping * moved);
     alignment.T_camera_reference = SE3::exp(step) * alignment.T_camera_reference;
-    if (search.gate <= kLastGate && step.norm() < kConverged) break;
+    if (search.gate <= kLastGate && step.norm() < kAligned) break;
     search.gate = std::max(kLastGate, search.gate * kGateShrink);
   }
   const Sum sum = aligner.sum_up(alignment.T_camera_reference, {.gate = kLastGate});

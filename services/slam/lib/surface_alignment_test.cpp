@@ -44,7 +44,7 @@ RgbdFrame see(const std::vector<Plane>& planes, const SE3& T_world_camera) {
 }
 
 const SlamConfig kConfig;
-const ObservationModel kModel(synthetic::camera(), kConfig);
+const ObservationModel kSurfaceModel(synthetic::camera(), kConfig);
 
 PatchGrid patches(const RgbdFrame& frame, const cv::Mat& verdicts = {}) {
   return {synthetic::camera(), sample_surface(frame, verdicts, kConfig.features), kConfig.features};
@@ -52,7 +52,7 @@ PatchGrid patches(const RgbdFrame& frame, const cv::Mat& verdicts = {}) {
 
 TEST(SurfaceAlignment, FindsALargeMotionInACornerOfARoomFromTheShapeAlone) {
   const SE3 T_reference_camera = synthetic::pose_at(0.15, -0.08, 0.1, 0.12);
-  const auto alignment = align_surfaces(kModel, patches(see(kCorner, SE3())),
+  const auto alignment = align_surfaces(kSurfaceModel, patches(see(kCorner, SE3())),
                                         patches(see(kCorner, T_reference_camera)), SE3());
   ASSERT_TRUE(alignment);
   const SE3 error = alignment->T_camera_reference * T_reference_camera;
@@ -64,7 +64,7 @@ TEST(SurfaceAlignment, FindsALargeMotionInACornerOfARoomFromTheShapeAlone) {
 
 TEST(SurfaceAlignment, SaysThatAWallLetsTheCameraSlide) {
   const SE3 T_reference_camera = synthetic::pose_at(0.0, 0.0, 0.1, 0.05);
-  const auto alignment = align_surfaces(kModel, patches(see(kWall, SE3())),
+  const auto alignment = align_surfaces(kSurfaceModel, patches(see(kWall, SE3())),
                                         patches(see(kWall, T_reference_camera)), SE3());
   ASSERT_TRUE(alignment);
   const SE3 T_reference_found = alignment->T_camera_reference.inverse();
@@ -77,8 +77,8 @@ TEST(SurfaceAlignment, SaysThatAWallLetsTheCameraSlide) {
 TEST(SurfaceAlignment, GivesNothingWithoutDepth) {
   RgbdFrame blind = see(kCorner, SE3());
   blind.depth = cv::Scalar(0);
-  EXPECT_FALSE(align_surfaces(kModel, patches(see(kCorner, SE3())), patches(blind), SE3()));
-  EXPECT_FALSE(align_surfaces(kModel, patches(blind), patches(see(kCorner, SE3())), SE3()));
+  EXPECT_FALSE(align_surfaces(kSurfaceModel, patches(see(kCorner, SE3())), patches(blind), SE3()));
+  EXPECT_FALSE(align_surfaces(kSurfaceModel, patches(blind), patches(see(kCorner, SE3())), SE3()));
 }
 
 TEST(Surface, HasPatchesInThePlanesThatAreSeen) {

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "services/slam/lib/feature_matcher.hpp"
+#include "services/slam/lib/nearest_depth.hpp"
 
 namespace tsg {
 namespace {
 
 constexpr double kMinParallax = 0.015;  // radians: a tenth of the depth is uncertain then
-constexpr double kMinDepth = 0.1;       // metres
 constexpr int kMaxNeighbours = 5;       // matching by looks takes half a millisecond each
 constexpr int kMaxDistance = 50;        // of descriptors: a wrong point stays for a while
 constexpr float kMaxRatio = 0.8F;

@@ -10,10 +10,10 @@ namespace {
 
 constexpr int kColumns = 4;
 constexpr int kRows = 4;
-constexpr double kMinOverlap = 0.07;  // of the image: what is smaller fits by chance
+constexpr double kMinAgreeingShare = 0.07;  // of the image: what is smaller fits by chance
 
 bool fits(const SurfaceAgreement& agreement, double max_contradiction) {
-  return agreement.agreeing >= kMinOverlap * agreement.cells &&
+  return agreement.agreeing >= kMinAgreeingShare * agreement.cells &&
          agreement.contradiction() <= max_contradiction;
 }
 

@@ -56,7 +56,7 @@ std::string scene_table(const MethodsReport& report,
   return markdown_table(rows);
 }
 
-std::string percent(std::optional<double> share) {
+std::string percent_cell(std::optional<double> share) {
   return share ? fixed(100.0 * *share, 1) + " %" : kNone;
 }
 
@@ -105,9 +105,9 @@ Row run_row(const SequenceRuns& sequence, const MethodRun& run) {
   return {sequence.name,
           run.name,
           metres(&TrajectoryAccuracy::ate_m),
-          percent(ate_improvement(sequence, run)),
+          percent_cell(ate_improvement(sequence, run)),
           metres(&TrajectoryAccuracy::rpe_translation_m),
-          percent(rpe_improvement(sequence, run)),
+          percent_cell(rpe_improvement(sequence, run)),
           std::to_string(run.frames_lost) + "/" + std::to_string(run.frames),
           fixed(run.tracking_p50_ms, 1),
           verdicts ? share_text(verdicts->total.recall()) : kNone,
@@ -230,7 +230,7 @@ std::string to_markdown(const MethodsReport& report) {
     return scene_table(report, report.methods, &SequenceRuns::methods, cell);
   };
   const auto improvement_cell = [](const SequenceRuns& sequence, const MethodRun& run) {
-    return percent(ate_improvement(sequence, run));
+    return percent_cell(ate_improvement(sequence, run));
   };
   return "# Methods of dynamic feature removal\n\n    " + report.command +
          "\n\n## ATE RMSE, m\n\n" + by_method(ate_cell) +

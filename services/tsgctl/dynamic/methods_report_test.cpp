@@ -30,7 +30,7 @@ VerdictSummary verdicts() {
   return summary;
 }
 
-MethodsReport report() {
+MethodsReport example_runs() {
   SequenceRuns chair{
       .name = "moved_chair", .folder = "data/moved_chair", .methods = {}, .variants = {}};
   chair.methods = {run("none", 0.4, 0.2), run("full", 0.004, 0.01)};
@@ -46,7 +46,7 @@ MethodsReport report() {
 }
 
 TEST(MethodsReportMarkdown, HasATableForEachFigure) {
-  const std::string text = to_markdown(report());
+  const std::string text = to_markdown(example_runs());
   EXPECT_THAT(text, HasSubstr("    tsgctl report methods data/moved_chair data/absent\n"));
   EXPECT_THAT(text, HasSubstr("## ATE RMSE, m\n\n| sequence | none | full |\n| --- | --- | --- |\n"
                               "| moved_chair | 0.4000 | 0.0040 |\n| absent | failed | - |\n"));
@@ -56,36 +56,36 @@ TEST(MethodsReportMarkdown, HasATableForEachFigure) {
 }
 
 TEST(MethodsReportMarkdown, ShowsWhatImperfectMasksCost) {
-  const std::string text = to_markdown(report());
+  const std::string text = to_markdown(example_runs());
   EXPECT_THAT(text, HasSubstr("* `late6`: masks 6 frames late\n"));
   EXPECT_THAT(text, HasSubstr("| moved_chair | 0.0050 (3 lost), × 1.25 |\n"));
-  MethodsReport without = report();
+  MethodsReport without = example_runs();
   without.variants.clear();
   EXPECT_THAT(to_markdown(without), Not(HasSubstr("imperfect masks")));
 }
 
 TEST(MethodsReportMarkdown, HasEveryRunWithAllItsFigures) {
-  const std::string text = to_markdown(report());
+  const std::string text = to_markdown(example_runs());
   EXPECT_THAT(text, HasSubstr("| moved_chair | full | 0.0040 | 99.0 % | 0.0100 | 95.0 % | 0/280 | "
                               "7.9 | 0.900 | 0.900 |\n"));
   EXPECT_THAT(text, HasSubstr("| absent | none | failed: there is no folder data/absent |"));
 }
 
 TEST(MethodsReportMarkdown, CountsFeaturesLeftPerFrameWhereTheTruthIsKnown) {
-  EXPECT_THAT(to_markdown(report()), HasSubstr("| moved_chair | full | 0.0 | 1.5 | 0.0 |"));
-  MethodsReport real = report();
+  EXPECT_THAT(to_markdown(example_runs()), HasSubstr("| moved_chair | full | 0.0 | 1.5 | 0.0 |"));
+  MethodsReport real = example_runs();
   real.sequences[0].methods[1].verdicts.reset();
   EXPECT_THAT(to_markdown(real), HasSubstr("No sequence tells what moves in it.\n"));
 }
 
 TEST(MethodsReportMarkdown, MarksARelativeErrorOverAnotherTime) {
-  MethodsReport brief = report();
+  MethodsReport brief = example_runs();
   brief.sequences[0].methods[0].accuracy->rpe_delta = "1 frame";
   EXPECT_THAT(to_markdown(brief), HasSubstr("| moved_chair | 0.2000 over 1 frame | 0.0100 |\n"));
 }
 
 TEST(MethodsReport, ImprovementNeedsARunWithoutRemoval) {
-  MethodsReport alone = report();
+  MethodsReport alone = example_runs();
   SequenceRuns& chair = alone.sequences[0];
   const MethodRun full = chair.methods[1];
   EXPECT_DOUBLE_EQ(*ate_improvement(chair, full), 0.99);
@@ -95,11 +95,12 @@ TEST(MethodsReport, ImprovementNeedsARunWithoutRemoval) {
 }
 
 TEST(MethodsReport, NamesWhatFailed) {
-  EXPECT_THAT(report().problems(), ElementsAre("absent, none: there is no folder data/absent"));
+  EXPECT_THAT(example_runs().problems(),
+              ElementsAre("absent, none: there is no folder data/absent"));
 }
 
 TEST(MethodsReportJson, HasEveryRun) {
-  const nlohmann::json json = to_json(report());
+  const nlohmann::json json = to_json(example_runs());
   const auto& chair = json["sequences"][0];
   EXPECT_EQ(chair["folder"], "data/moved_chair");
   EXPECT_DOUBLE_EQ(chair["methods"][1]["ate_rmse_m"], 0.004);

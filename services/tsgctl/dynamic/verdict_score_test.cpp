@@ -37,7 +37,7 @@ const TrueInstance kPushed{7, "chair", "a", FeatureVerdict::kPotentiallyDynamic,
 const TrueInstance kLeft{8, "chair", "b", FeatureVerdict::kPotentiallyDynamic, TrueState::kStill};
 const TrueInstance kCart{9, "", "cart", FeatureVerdict::kStatic, TrueState::kMoving};
 const TrueInstance kOdd{10, "chair", "c", FeatureVerdict::kPotentiallyDynamic, TrueState::kUnknown};
-constexpr int kGround = 9;  // as an index: its columns belong to no instance here
+constexpr int kNothing = 9;  // as an index: its columns belong to no instance here
 
 const InstanceTally* find(const VerdictSummary& summary, int id) {
   for (const InstanceTally& tally : summary.instances) {
@@ -54,7 +54,7 @@ TEST(VerdictScore, RecallAndPrecisionLeaveOutWhoRests) {
   FrameVerdicts verdicts;
   add_features(verdicts, 0, 9, 1);    // walks
   add_features(verdicts, 1, 50, 30);  // rests
-  add_features(verdicts, kGround, 3, 97);
+  add_features(verdicts, kNothing, 3, 97);
   const VerdictCounts counts =
       score_frame(verdicts, truth_with({kWalker, kSitter})).away_from_edges();
   EXPECT_DOUBLE_EQ(*counts.recall(), 0.9);
@@ -64,7 +64,7 @@ TEST(VerdictScore, RecallAndPrecisionLeaveOutWhoRests) {
 
 TEST(VerdictScore, WithoutAnythingToJudgeThereIsNoFigure) {
   FrameVerdicts verdicts;
-  add_features(verdicts, kGround, 0, 10);
+  add_features(verdicts, kNothing, 0, 10);
   const VerdictCounts counts = score_frame(verdicts, truth_with({})).away_from_edges();
   EXPECT_FALSE(counts.recall());
   EXPECT_FALSE(counts.precision());
@@ -75,7 +75,7 @@ TEST(VerdictScore, FeaturesAtEdgesCountApartAndComeBackInTheSecondTotal) {
   FrameVerdicts verdicts;
   add_features(verdicts, 0, 10, 0);
   add_features(verdicts, 0, 0, 10, /*at_edge=*/true);
-  add_features(verdicts, kGround, 5, 0, /*at_edge=*/true);
+  add_features(verdicts, kNothing, 5, 0, /*at_edge=*/true);
   const VerdictSummary summary = summarise({score_frame(verdicts, truth_with({kWalker}))});
   EXPECT_DOUBLE_EQ(*summary.total.recall(), 1.0);
   EXPECT_DOUBLE_EQ(*summary.total.precision(), 1.0);
@@ -99,7 +99,7 @@ TEST(VerdictScore, IsSplitByTheTrueClass) {
   add_features(verdicts, 0, 4, 0);
   add_features(verdicts, 1, 1, 2);
   add_features(verdicts, 2, 0, 7);
-  add_features(verdicts, kGround, 1, 5);
+  add_features(verdicts, kNothing, 1, 5);
   const FrameScore score = score_frame(verdicts, truth_with({kWalker, kPushed, kLeft}));
   ASSERT_EQ(score.by_class.size(), 3U);
   EXPECT_EQ(score.by_class.at("person").of(TrueState::kMoving), (Judged{4, 0}));
@@ -115,7 +115,7 @@ TEST(VerdictScore, CountsKindsAsThePaperDoesWithThoseAtEdges) {
   add_features(verdicts, 2, 5, 6);
   add_features(verdicts, 3, 0, 7);
   add_features(verdicts, 4, 1, 8);
-  add_features(verdicts, kGround, 2, 50);
+  add_features(verdicts, kNothing, 2, 50);
   const FrameScore score =
       score_frame(verdicts, truth_with({kWalker, kSitter, kPushed, kLeft, kCart}));
   EXPECT_EQ(kind(score, FeatureKind::kDynamicClasses), (Judged{5, 3}));

@@ -14,8 +14,8 @@ using octomap::ColorOcTreeNode;
 using render::Material;
 using render::Mesh;
 
-constexpr double kStrayShare = 0.005;  ///< of all leaves, on each side of the extent
-constexpr int kColourStep = 8;         ///< colours closer than this count as one: fewer materials
+constexpr double kStrayLeaves = 0.005;  ///< of all leaves, on each side of the extent
+constexpr int kColourStep = 8;          ///< colours closer than this count as one: fewer materials
 
 /// A side of a leaf: a square.
 struct Side {
@@ -131,7 +131,7 @@ MapExtent extent_of(const ColorOcTree& tree) {
   for (int axis = 0; axis < 3; ++axis) {
     auto& values = coordinates.at(static_cast<std::size_t>(axis));
     std::ranges::sort(values);
-    const auto stray = static_cast<std::size_t>(kStrayShare * static_cast<double>(values.size()));
+    const auto stray = static_cast<std::size_t>(kStrayLeaves * static_cast<double>(values.size()));
     extent.low_m[axis] = values[stray] - half_leaf_m;
     extent.high_m[axis] = values[values.size() - 1 - stray] + half_leaf_m;
   }

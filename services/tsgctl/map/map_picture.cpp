@@ -24,12 +24,12 @@ using octomap::ColorOcTree;
 
 constexpr int kWidth = 1200;
 constexpr int kHeight = 900;
-constexpr double kElevation = 38.0;    // degrees, of the eye
-constexpr double kDistance = 1.5;      // of the eye, in sizes of the map
-constexpr double kFill = 0.9;          // of the picture
-constexpr double kStrayShare = 0.002;  // of the points, that may fall out of it at each edge
-constexpr int kDirections = 12;        // round the map, tried for the best view
-constexpr float kBackground = 0.93F;   // light grey
+constexpr double kElevation = 38.0;     // degrees, of the eye
+constexpr double kDistance = 1.5;       // of the eye, in sizes of the map
+constexpr double kFill = 0.9;           // of the picture
+constexpr double kStrayPoints = 0.002;  // of the points, that may fall out of it at each edge
+constexpr int kDirections = 12;         // round the map, tried for the best view
+constexpr float kBackground = 0.93F;    // light grey
 
 /// An eye in that direction, far enough for walls to look nearly parallel.
 Eigen::Vector3d eye_towards(const MapExtent& extent, double azimuth_rad) {
@@ -64,7 +64,7 @@ struct Spread {
 
 Spread spread_of(std::vector<double> values) {
   std::ranges::sort(values);
-  const auto stray = static_cast<std::size_t>(kStrayShare * static_cast<double>(values.size()));
+  const auto stray = static_cast<std::size_t>(kStrayPoints * static_cast<double>(values.size()));
   const double low = values[stray];
   const double high = values[values.size() - 1 - stray];
   return {0.5 * (low + high), std::max(high - low, 1e-6)};

@@ -15,7 +15,6 @@ using std::chrono::milliseconds;
 constexpr milliseconds kStartTimeout{10'000};
 constexpr milliseconds kProbePeriod{20};
 constexpr milliseconds kStopGrace{500};
-constexpr std::size_t kLogLinesShown = 8;
 
 std::string log_end(const std::filesystem::path& log_file) {
   return "; its log, " + log_file.string() + ", ends with\n" + log_tail(log_file, kLogLinesShown);

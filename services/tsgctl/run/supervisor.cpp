@@ -9,7 +9,6 @@
 namespace tsg {
 namespace {
 
-constexpr std::size_t kLogLinesShown = 8;
 constexpr std::chrono::milliseconds kAliveCheckPeriod{50};
 
 }  // namespace

@@ -5,12 +5,12 @@
 #include <opencv2/imgproc.hpp>
 
 #include "services/slam/lib/dynamic/depth_cells.hpp"
+#include "services/slam/lib/nearest_depth.hpp"
 
 namespace tsg {
 namespace {
 
 constexpr double kCutShort = 0.5;   // share of its border that runs across a surface
-constexpr float kMinDepth = 0.1F;   // metres
 constexpr double kBodyDepth = 0.4;  // metres that a thing goes on in depth
 constexpr int kBodyCells = 12;      // around what was seen to move: the same thing, mostly
 

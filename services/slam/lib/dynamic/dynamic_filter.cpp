@@ -12,13 +12,13 @@
 #include "services/slam/lib/dynamic/depth_cells.hpp"
 #include "services/slam/lib/dynamic/epipolar_coupling.hpp"
 #include "services/slam/lib/dynamic/seen_through.hpp"
+#include "services/slam/lib/nearest_depth.hpp"
 
 namespace tsg {
 namespace {
 
 constexpr double kUnknownDepth = 2.0;  // metres, for masks of frames that were never seen
 constexpr double kOnSurface = 0.1;     // metres; what lies deeper is not the thing
-constexpr float kMinDepth = 0.1F;      // metres
 constexpr std::size_t kMaxAsked = 64;  // of the features of one thing, who else moved alike
 constexpr int kMinAppearedCells = 24;  // specks are noise at the end of range
 constexpr std::int64_t kDoubtNs = 1'000'000'000;  // after something nameless was last seen to move

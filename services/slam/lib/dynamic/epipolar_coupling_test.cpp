@@ -14,7 +14,7 @@ namespace tsg {
 namespace {
 
 constexpr double kNoise = 0.3;  // pixels
-const SE3 kMoved = synthetic::pose_at(0.03, 0.015, 0.01, 0.005);
+const SE3 kNextView = synthetic::pose_at(0.03, 0.015, 0.01, 0.005);
 const Eigen::Vector3d kPush(-0.01, 0.03, 0.0);  // metres; across the epipolar lines
 
 synthetic::Body chair(std::size_t count, const Eigen::Vector3d& motion = {0.0, 0.0, 0.0}) {
@@ -40,7 +40,7 @@ TEST(EpipolarCoupling, KeepsTheChairThatStandsAndDropsTheOneThatIsPushed) {
   synthetic::Body standing = synthetic::box_at({0.5, 0.1, 2.0}, 50, 12);
   standing.prior = FeatureVerdict::kPotentiallyDynamic;
   const auto frames =
-      synthetic::observe({synthetic::room(300, 1), standing, chair(50, kPush)}, kMoved, kNoise);
+      synthetic::observe({synthetic::room(300, 1), standing, chair(50, kPush)}, kNextView, kNoise);
   const CouplingVerdicts verdicts = judge(frames);
   EXPECT_TRUE(verdicts.fundamental);
   EXPECT_GT(verdicts.matches, 380);
@@ -52,7 +52,7 @@ TEST(EpipolarCoupling, KeepsTheChairThatStandsAndDropsTheOneThatIsPushed) {
 TEST(EpipolarCoupling, FindsAMovingPatchThatNoMaskCovers) {
   synthetic::Body cart = chair(60, kPush);
   cart.prior = FeatureVerdict::kStatic;
-  const auto frames = synthetic::observe({synthetic::room(300, 2), cart}, kMoved, kNoise);
+  const auto frames = synthetic::observe({synthetic::room(300, 2), cart}, kNextView, kNoise);
   for (const DynamicMethod method : {DynamicMethod::kTsg, DynamicMethod::kEpipolar}) {
     SCOPED_TRACE(name_of(method));
     const CouplingVerdicts verdicts = judge(frames, method);
@@ -63,7 +63,7 @@ TEST(EpipolarCoupling, FindsAMovingPatchThatNoMaskCovers) {
 
 TEST(EpipolarCoupling, IsNotOutvotedByAMoverWithMostOfTheMatchesAsPlainEpipolarLinesAre) {
   const auto frames =
-      synthetic::observe({synthetic::room(120, 3), chair(300, kPush)}, kMoved, kNoise);
+      synthetic::observe({synthetic::room(120, 3), chair(300, kPush)}, kNextView, kNoise);
   const CouplingVerdicts coupled = judge(frames, DynamicMethod::kTsg);
   EXPECT_LT(dynamic_share(coupled, 0, 120), 0.05);
   EXPECT_GT(dynamic_share(coupled, 120, 300), 0.95);
@@ -97,7 +97,7 @@ TEST(EpipolarCoupling, SeesAllMotionWhileTheCameraStandsStill) {
 TEST(EpipolarCoupling, KeepsOnlyStaticFeaturesOfThoseItCannotTest) {
   synthetic::Body person = chair(30, kPush);
   person.prior = FeatureVerdict::kDynamic;
-  auto frames = synthetic::observe({synthetic::room(300, 6), person, chair(30)}, kMoved, kNoise);
+  auto frames = synthetic::observe({synthetic::room(300, 6), person, chair(30)}, kNextView, kNoise);
   for (Descriptor& descriptor : frames.reference.descriptors) {
     for (std::uint64_t& word : descriptor) word = ~word;  // nothing looks as it did
   }
@@ -111,7 +111,7 @@ TEST(EpipolarCoupling, KeepsOnlyStaticFeaturesOfThoseItCannotTest) {
 }
 
 TEST(EpipolarCoupling, TestsNothingWithFewerThanEightStaticMatches) {
-  const auto frames = synthetic::observe({synthetic::room(7, 7), chair(100)}, kMoved, 0.0);
+  const auto frames = synthetic::observe({synthetic::room(7, 7), chair(100)}, kNextView, 0.0);
   const CouplingVerdicts verdicts = judge(frames);
   EXPECT_GT(verdicts.matches, 90);
   EXPECT_FALSE(verdicts.fundamental);
@@ -120,7 +120,7 @@ TEST(EpipolarCoupling, TestsNothingWithFewerThanEightStaticMatches) {
 }
 
 TEST(EpipolarCoupling, TakesAMatchForStaticOnlyIfItWasStaticInBothFrames) {
-  auto frames = synthetic::observe({synthetic::room(120, 8), chair(300, kPush)}, kMoved, kNoise);
+  auto frames = synthetic::observe({synthetic::room(120, 8), chair(300, kPush)}, kNextView, kNoise);
   for (std::size_t i = 120; i < 420; ++i) {  // a mask that was missing in the reference frame
     frames.reference.items[i].verdict = FeatureVerdict::kStatic;
   }

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "services/slam/lib/feature_matcher.hpp"
+#include "services/slam/lib/nearest_depth.hpp"
 
 namespace tsg {
 namespace {
 
 constexpr float kReach = 32.0F;            // pixels that a thing may have moved by in the image
 constexpr float kDepthReach = 0.2F;        // 1/m
-constexpr double kMinDepth = 0.1;          // metres
 constexpr double kMovedPixels = 3.0;       // beyond noise, pose error, and what a corner wanders
 constexpr double kMovedDepthSigmas = 6.0;  // of inverse depth, where the corner stays in place
 constexpr float kStillReach = 4.0F;        // pixels: what is found here needs no other explanation

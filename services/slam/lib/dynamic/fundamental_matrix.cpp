@@ -12,7 +12,8 @@ namespace tsg {
 namespace {
 
 /// Eq. 4, a row for each pair.
-NineColumns equations(std::span<const PixelPair> pairs, const Normalisation& to_normalised) {
+NineColumns epipolar_equations(std::span<const PixelPair> pairs,
+                               const Normalisation& to_normalised) {
   NineColumns rows(static_cast<Eigen::Index>(pairs.size()), 9);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Eigen::Vector3d p1 = to_normalised.N1 * pairs[i].p1.homogeneous();
@@ -43,7 +44,7 @@ double distance_in_both(const Eigen::Matrix3d& F, const PixelPair& pair) {
 std::optional<Eigen::Matrix3d> eight_point(std::span<const PixelPair> pairs) {
   if (pairs.size() < kMinFundamentalPairs) return std::nullopt;
   const Normalisation to_normalised(pairs);
-  const auto F_normalised = null_vector(equations(pairs, to_normalised));
+  const auto F_normalised = null_vector(epipolar_equations(pairs, to_normalised));
   if (!F_normalised) return std::nullopt;
   const Eigen::Matrix3d F =
       to_normalised.N2.transpose() * nearest_of_rank_2(*F_normalised) * to_normalised.N1;

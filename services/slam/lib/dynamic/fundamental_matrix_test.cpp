@@ -14,7 +14,7 @@
 namespace tsg {
 namespace {
 
-const SE3 kMoved = synthetic::pose_at(0.15, -0.05, 0.1, 0.03);
+const SE3 kSecondView = synthetic::pose_at(0.15, -0.05, 0.1, 0.03);
 
 /// From the poses themselves: F = K^-T [t]x R K^-1 (Hartley and Zisserman 2004, eq. 9.2).
 Eigen::Matrix3d true_fundamental(const SE3& T_world_current) {
@@ -66,18 +66,18 @@ TEST(EpipolarDistance, IsInfiniteAtTheEpipoleThatHasNoLine) {
 TEST(EightPoint, RecoversTheMatrixOfTwoCamerasFromEightPairs) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
-    const auto few = synthetic::pairs_of(synthetic::room(kMinFundamentalPairs, seed), kMoved);
+    const auto few = synthetic::pairs_of(synthetic::room(kMinFundamentalPairs, seed), kSecondView);
     const auto F = eight_point(few);
     ASSERT_TRUE(F);
-    const auto others = synthetic::pairs_of(synthetic::room(200, seed + 100), kMoved);
+    const auto others = synthetic::pairs_of(synthetic::room(200, seed + 100), kSecondView);
     EXPECT_LT(largest_distance(*F, others), 1e-6);
-    const Eigen::Matrix3d truth = true_fundamental(kMoved);
+    const Eigen::Matrix3d truth = true_fundamental(kSecondView);
     EXPECT_LT(std::min((*F - truth).norm(), (*F + truth).norm()), 1e-8);
   }
 }
 
 TEST(EightPoint, StaysBelowThePixelWithNoiseAndHasRankTwo) {
-  auto pairs = synthetic::pairs_of(synthetic::room(300, 1), kMoved);
+  auto pairs = synthetic::pairs_of(synthetic::room(300, 1), kSecondView);
   const auto exact = pairs;
   synthetic::add_noise(pairs, 0.5, 2);
   const auto F = eight_point(pairs);
@@ -89,7 +89,7 @@ TEST(EightPoint, StaysBelowThePixelWithNoiseAndHasRankTwo) {
 
 TEST(EightPoint, SaysNothingWhereThePairsLeaveMoreThanOneSolution) {
   const synthetic::Body room = synthetic::room(100, 1);
-  const auto exact = synthetic::pairs_of(room, kMoved);
+  const auto exact = synthetic::pairs_of(room, kSecondView);
   EXPECT_FALSE(eight_point(std::vector<PixelPair>(exact.begin(), exact.begin() + 7)));
   EXPECT_FALSE(eight_point(std::vector<PixelPair>(20, exact.front()))) << "one pixel";
   EXPECT_FALSE(eight_point(synthetic::pairs_of(room, SE3()))) << "the camera stands still";
@@ -97,13 +97,13 @@ TEST(EightPoint, SaysNothingWhereThePairsLeaveMoreThanOneSolution) {
       << "it only turns";
   synthetic::Body wall = room;
   for (Eigen::Vector3d& point : wall.points) point *= 3.0 / point.z();
-  EXPECT_FALSE(eight_point(synthetic::pairs_of(wall, kMoved))) << "all lie on one plane";
+  EXPECT_FALSE(eight_point(synthetic::pairs_of(wall, kSecondView))) << "all lie on one plane";
 }
 
 TEST(EstimateFundamental, IsNotMisledByFortyPercentOfWrongPairs) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE(seed);
-    auto pairs = synthetic::pairs_of(synthetic::room(400, seed), kMoved);
+    auto pairs = synthetic::pairs_of(synthetic::room(400, seed), kSecondView);
     synthetic::add_noise(pairs, 0.3, seed);
     const std::vector<PixelPair> right(pairs.begin() + 160, pairs.end());
     std::mt19937 generator(seed);
@@ -121,7 +121,7 @@ TEST(EstimateFundamental, IsNotMisledByFortyPercentOfWrongPairs) {
 }
 
 TEST(EstimateFundamental, AnswersTheSameEachTime) {
-  auto pairs = synthetic::pairs_of(synthetic::room(200, 3), kMoved);
+  auto pairs = synthetic::pairs_of(synthetic::room(200, 3), kSecondView);
   synthetic::add_noise(pairs, 0.5, 3);
   const auto once = estimate_fundamental(pairs, {});
   const auto again = estimate_fundamental(pairs, {});
@@ -132,7 +132,7 @@ TEST(EstimateFundamental, AnswersTheSameEachTime) {
 
 TEST(EstimateFundamental, SaysNothingWithoutEightPairsOrWithoutParallax) {
   const synthetic::Body room = synthetic::room(50, 1);
-  const auto exact = synthetic::pairs_of(room, kMoved);
+  const auto exact = synthetic::pairs_of(room, kSecondView);
   EXPECT_FALSE(estimate_fundamental({}, {}));
   EXPECT_FALSE(estimate_fundamental(std::vector<PixelPair>(exact.begin(), exact.begin() + 7), {}));
   EXPECT_FALSE(estimate_fundamental(synthetic::pairs_of(room, SE3()), {}));

@@ -14,7 +14,8 @@ double distance_of(const Eigen::Matrix3d& H, const PixelPair& pair) {
 }
 
 /// Two rows for each pair.
-NineColumns equations(std::span<const PixelPair> pairs, const Normalisation& to_normalised) {
+NineColumns homography_equations(std::span<const PixelPair> pairs,
+                                 const Normalisation& to_normalised) {
   NineColumns rows = NineColumns::Zero(static_cast<Eigen::Index>(2 * pairs.size()), 9);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Eigen::Vector3d p1 = to_normalised.N1 * pairs[i].p1.homogeneous();
@@ -33,7 +34,7 @@ NineColumns equations(std::span<const PixelPair> pairs, const Normalisation& to_
 std::optional<Eigen::Matrix3d> fit_homography(std::span<const PixelPair> pairs) {
   if (pairs.size() < kMinHomographyPairs) return std::nullopt;
   const Normalisation to_normalised(pairs);
-  const auto H_normalised = null_vector(equations(pairs, to_normalised));
+  const auto H_normalised = null_vector(homography_equations(pairs, to_normalised));
   if (!H_normalised) return std::nullopt;
   const Eigen::Matrix3d H = to_normalised.N2.inverse() * *H_normalised * to_normalised.N1;
   // The sign that puts the pixels in front of the second camera.

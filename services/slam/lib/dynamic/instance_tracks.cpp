@@ -8,6 +8,7 @@
 #include "services/slam/lib/dynamic/body_region.hpp"
 #include "services/slam/lib/dynamic/class_policy.hpp"
 #include "services/slam/lib/dynamic/depth_cells.hpp"
+#include "services/slam/lib/nearest_depth.hpp"
 
 namespace tsg {
 namespace {
@@ -20,7 +21,6 @@ constexpr std::int64_t kMinTrailNs = 90'000'000;
 constexpr double kMinSpeed = 0.08;   // m/s; slower than the centre of a mask wanders
 constexpr int kMaxMissedMasks = 3;   // networks lose a thing for a mask or two
 constexpr double kMinSupport = 0.4;  // share of a missed thing that is still there
-constexpr float kMinDepth = 0.1F;    // metres
 
 Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d median;

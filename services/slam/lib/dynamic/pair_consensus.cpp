@@ -17,9 +17,11 @@ struct Scored {
   double cost = std::numeric_limits<double>::infinity();  ///< pixels squared
 };
 
-class Search {
+class ConsensusSearch {
  public:
-  Search(const PairModel& model, std::span<const PixelPair> pairs, const ConsensusLimits& limits)
+  ConsensusSearch(const PairModel& model,
+                  std::span<const PixelPair> pairs,
+                  const ConsensusLimits& limits)
       : model_(model), pairs_(pairs), limits_(limits), generator_(kSeed) {}
 
   std::optional<Consensus> run() {
@@ -117,7 +119,7 @@ std::optional<Consensus> find_consensus(const PairModel& model,
                                         std::span<const PixelPair> pairs,
                                         const ConsensusLimits& limits) {
   if (pairs.size() < model.sample) return std::nullopt;
-  return Search(model, pairs, limits).run();
+  return ConsensusSearch(model, pairs, limits).run();
 }
 
 }  // namespace tsg

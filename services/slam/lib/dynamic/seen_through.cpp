@@ -3,10 +3,11 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "services/slam/lib/nearest_depth.hpp"
+
 namespace tsg {
 namespace {
 
-constexpr float kMinDepth = 0.1F;        // metres
 constexpr double kSigmas = 4.0;          // of the difference of two measurements
 constexpr double kPoseError = 0.02;      // metres: along the ray, of pose and calibration together
 constexpr double kRelativeError = 0.01;  // of depth: the sensor's bias, and slopes within a cell

@@ -10,14 +10,14 @@
 namespace tsg {
 namespace {
 
-const cv::Rect kBoard(60, 40, 30, 40);  // cells
+const cv::Rect kBoardCells(60, 40, 30, 40);  // cells
 constexpr int kOutline = 2 * (160 + 118);
 
 cv::Mat wall() { return {120, 160, CV_32FC1, cv::Scalar(3.0)}; }
 
 cv::Mat wall_with_board() {
   cv::Mat depth = wall();
-  depth(kBoard) = 2.0;
+  depth(kBoardCells) = 2.0;
   return depth;
 }
 
@@ -41,16 +41,16 @@ class SeenThroughTest : public testing::Test {
 
 TEST_F(SeenThroughTest, ABoardThatComesInFrontOfAWallAppeared) {
   compare(wall_with_board(), wall());
-  EXPECT_EQ(count(evidence_(kBoard), CellEvidence::kAppeared), kBoard.area());
-  EXPECT_EQ(count(evidence_, CellEvidence::kAppeared), kBoard.area());
-  EXPECT_EQ(count(evidence_, CellEvidence::kSame), 120 * 160 - kBoard.area() - kOutline);
+  EXPECT_EQ(count(evidence_(kBoardCells), CellEvidence::kAppeared), kBoardCells.area());
+  EXPECT_EQ(count(evidence_, CellEvidence::kAppeared), kBoardCells.area());
+  EXPECT_EQ(count(evidence_, CellEvidence::kSame), 120 * 160 - kBoardCells.area() - kOutline);
 }
 
 TEST_F(SeenThroughTest, AnUncoveredWallWasHidden) {
   compare(wall(), wall_with_board());
-  EXPECT_EQ(count(evidence_(kBoard), CellEvidence::kNone), kBoard.area());
+  EXPECT_EQ(count(evidence_(kBoardCells), CellEvidence::kNone), kBoardCells.area());
   EXPECT_EQ(count(evidence_, CellEvidence::kAppeared), 0);
-  EXPECT_EQ(count(evidence_, CellEvidence::kSame), 120 * 160 - kBoard.area() - kOutline);
+  EXPECT_EQ(count(evidence_, CellEvidence::kSame), 120 * 160 - kBoardCells.area() - kOutline);
 }
 
 TEST_F(SeenThroughTest, AStaticSceneIsTheSameUnderAMovedCamera) {
@@ -68,7 +68,7 @@ TEST_F(SeenThroughTest, MissingDepthSaysNothing) {
   compare(wall_with_board(), hole);
   // What lies beside a hole may be a thin thing that the sensor missed.
   EXPECT_EQ(count(evidence_(cv::Rect(69, 49, 3, 3)), CellEvidence::kNone), 9);
-  EXPECT_EQ(count(evidence_, CellEvidence::kAppeared), kBoard.area() - 9);
+  EXPECT_EQ(count(evidence_, CellEvidence::kAppeared), kBoardCells.area() - 9);
   evidence_ = 0.0;
   compare(cv::Mat::zeros(120, 160, CV_32FC1), wall());
   compare(wall(), cv::Mat::zeros(120, 160, CV_32FC1));
@@ -78,7 +78,7 @@ TEST_F(SeenThroughTest, MissingDepthSaysNothing) {
 TEST_F(SeenThroughTest, WhatWasThereEarlierDidNotAppear) {
   compare(wall_with_board(), wall());
   compare(wall_with_board(), wall_with_board());
-  EXPECT_EQ(count(evidence_(kBoard), CellEvidence::kSame), kBoard.area());
+  EXPECT_EQ(count(evidence_(kBoardCells), CellEvidence::kSame), kBoardCells.area());
   EXPECT_EQ(count(evidence_, CellEvidence::kAppeared), 0);
 }
 

@@ -6,13 +6,13 @@
 
 #include "services/slam/lib/dynamic/body_region.hpp"
 #include "services/slam/lib/dynamic/instance_tracks.hpp"
+#include "services/slam/lib/nearest_depth.hpp"
 
 namespace tsg {
 namespace {
 
-constexpr float kMinDepth = 0.1F;        // metres
 constexpr int kMinInView = 12;           // cells; by fewer nobody can tell
-constexpr double kMinSupport = 0.4;      // share of its cells where something still is
+constexpr double kMinCellSupport = 0.4;  // share of its cells where something still is
 constexpr int kJoinCells = 8;            // between parts of one thing that were seen to move
 constexpr int kMinSeeds = 8;             // cells that were seen to move; fewer are chance
 constexpr int kMinSeenCells = 40;        // that count as evidence at first
@@ -87,7 +87,7 @@ void InstanceTracks::drop_unnamed(const PastFrame& frame, const SE3& T_world_cam
     const std::int64_t age_ns = frame.stamp_ns - track.stamp_ns;
     const Support seen = support(track, frame, T_camera_world);
     const bool in_view = seen.in_view >= kMinInView;
-    if (in_view && seen.share() < kMinSupport) return true;
+    if (in_view && seen.share() < kMinCellSupport) return true;
     if (!track.evidence.was_certain()) return age_ns > kUncertainNs;
     return age_ns > (in_view ? kAtRestNs : kOutOfViewNs);
   });
