@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "common/geometry/se3.hpp"
 #include "common/simulation/scene.hpp"
 
 namespace tsg::simulation {

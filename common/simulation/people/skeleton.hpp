@@ -30,7 +30,7 @@ inline constexpr std::size_t kBones = kTrunkBones + 2 * kLimbBones;
   return kTrunkBones + kLimbBones * index_of(side) + static_cast<std::size_t>(bone);
 }
 
-// As indices.
+// The bones of the trunk as indices.
 inline constexpr std::size_t kPelvis = index_of(Bone::kPelvis);
 inline constexpr std::size_t kSpine = index_of(Bone::kSpine);
 inline constexpr std::size_t kChest = index_of(Bone::kChest);
