@@ -39,7 +39,7 @@ struct ConfigFile::Impl {
 
   void flatten(const YAML::Node& node, const std::string& name, const std::string& file) {
     if (!node.IsMap()) {
-      entries[name] = {node, origin_of(file, node.Mark())};
+      set(name, {node, origin_of(file, node.Mark())});
       return;
     }
     for (const auto& item : node) {
@@ -47,6 +47,12 @@ struct ConfigFile::Impl {
       if (item.second.IsNull()) continue;  // an empty section: all defaults
       flatten(item.second, child, file);
     }
+  }
+
+  /// Not by assignment: to a YAML node it would change whatever shares the old value.
+  void set(const std::string& name, const Entry& entry) {
+    entries.erase(name);
+    entries.emplace(name, entry);
   }
 
   void apply_override(const std::string& text) {
@@ -59,7 +65,7 @@ struct ConfigFile::Impl {
     const std::string value = text.substr(equals + 1);
     try {
       // Nothing behind the sign means an empty text; YAML would take it for null.
-      entries[name] = {value.empty() ? YAML::Node("") : YAML::Load(value), kCommandLine};
+      set(name, {value.empty() ? YAML::Node("") : YAML::Load(value), kCommandLine});
     } catch (const YAML::Exception& error) {
       throw FatalError(ExitCode::kUsage, "--set " + text + ": " + error.what());
     }

@@ -27,8 +27,8 @@ class ImageFiles : public ::testing::Test {
     cv::imwrite((folder_ / name).string(), image);
     return content_of(folder_ / name);
   }
-  cv::Mat colour() { return SyntheticSequence{.size = kSize}.colour(3); }
-  cv::Mat depth() { return SyntheticSequence{.size = kSize}.depth(3); }
+  static cv::Mat colour() { return SyntheticSequence{.size = kSize}.colour(3); }
+  static cv::Mat depth() { return SyntheticSequence{.size = kSize}.depth(3); }
 
   /// What goes wrong with a file of this content, at loading or at decoding as colour.
   Expected<void> colour_result(const std::string& name, const std::string& content) {

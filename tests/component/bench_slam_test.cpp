@@ -11,6 +11,7 @@
 namespace tsg {
 namespace {
 
+using test::code;
 using test::json_of;
 using test::ProgramResult;
 using ::testing::AllOf;
@@ -22,8 +23,6 @@ ProgramResult bench(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"bench", "slam"});
   return test::run_program(TSG_BIN_DIR "/tsgctl", arguments, test::kRunTimeout);
 }
-
-int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
 class BenchSlam : public ::testing::Test {
  protected:

@@ -11,6 +11,7 @@
 namespace tsg {
 namespace {
 
+using test::code;
 using test::json_of;
 using test::ProgramResult;
 using ::testing::AllOf;
@@ -22,8 +23,6 @@ constexpr int kFrames = 10;
 ProgramResult tsgctl(const std::vector<std::string>& arguments) {
   return test::run_program(TSG_BIN_DIR "/tsgctl", arguments, test::kRunTimeout);
 }
-
-int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
 class EvalDynamic : public ::testing::Test {
  protected:

@@ -14,6 +14,7 @@ namespace tsg {
 namespace {
 
 namespace fs = std::filesystem;
+using test::code;
 using test::content_of;
 using test::FileServer;
 using test::ProgramResult;
@@ -24,8 +25,6 @@ using ::testing::Not;
 
 const std::string kFolder = "rgbd_dataset_freiburg1_xyz";
 const std::string kArchive = "freiburg1/" + kFolder + ".tgz";
-
-int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
 /// Makes an archive of a sequence; `note` makes one differ from another.
 void write_archive(const TempFolder& site, const std::string& note = "") {

@@ -19,8 +19,6 @@ using namespace std::chrono_literals;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
-
 class SlamMaps : public SlamService {
  protected:
   void start_slam(const std::vector<std::string>& more = {}) {

@@ -16,6 +16,7 @@ namespace tsg {
 namespace {
 
 using namespace std::chrono_literals;
+using test::code;
 using test::ProgramResult;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -26,8 +27,6 @@ const std::string kTsgctl = std::string(TSG_BIN_DIR) + "/tsgctl";
 ProgramResult tsgctl(const std::vector<std::string>& arguments) {
   return test::run_program(kTsgctl, arguments);
 }
-
-int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
 /// Publishes on a thread of its own until it goes: tsgctl comes when it likes.
 class Background {

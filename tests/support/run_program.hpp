@@ -5,9 +5,13 @@
 #include <vector>
 
 #include "common/app/child_process.hpp"
+#include "common/core/error.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace tsg::test {
+
+/// As ChildExit tells it.
+inline int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
 /// What a program did.
 struct ProgramResult {
