@@ -19,19 +19,21 @@ float sample_inverse_depth(const cv::Mat& depth,
                            double units_per_metre,
                            const cv::Point& pixel,
                            const FeatureConfig& config) {
-  std::array<double, kPixels> values{};
+  std::array<std::uint16_t, kPixels> raws{};
   std::size_t count = 0;
   for (int y = std::max(0, pixel.y - kRadius); y <= std::min(depth.rows - 1, pixel.y + kRadius);
        ++y) {
     const auto* row = depth.ptr<std::uint16_t>(y);
     for (int x = std::max(0, pixel.x - kRadius); x <= std::min(depth.cols - 1, pixel.x + kRadius);
          ++x) {
-      if (row[x] > 0) values[count++] = units_per_metre / row[x];
+      if (row[x] > 0) raws[count++] = row[x];
     }
   }
   if (count < kMinAgreeing) return 0.0F;
   // A corner at the edge of a thing belongs to the thing: take the nearest surface.
-  std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count), std::greater<>());
+  std::sort(raws.begin(), raws.begin() + static_cast<std::ptrdiff_t>(count));
+  std::array<double, kPixels> values{};  // inverse depths, largest first
+  for (std::size_t i = 0; i < count; ++i) values[i] = units_per_metre / raws[i];
   const double step = kStepSigmas * config.inverse_depth_sigma;
   std::size_t first = 0;
   std::size_t last = 0;  // of a run of inverse depths without a step

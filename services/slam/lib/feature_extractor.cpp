@@ -29,6 +29,12 @@ std::vector<int> share_out(int total, const std::vector<double>& scales) {
   return budgets;
 }
 
+/// Centres of pixels are at integers, so a level's pixel (0, 0) lies right below that of level 0.
+Eigen::Vector2f to_level_0(const cv::Point2f& point, const Eigen::Vector2d& scale) {
+  return {static_cast<float>((point.x + 0.5) * scale.x() - 0.5),
+          static_cast<float>((point.y + 0.5) * scale.y() - 0.5)};
+}
+
 FeatureVerdict verdict_at(const cv::Mat& verdicts, const cv::Point& pixel) {
   return verdicts.empty() ? FeatureVerdict::kStatic
                           : static_cast<FeatureVerdict>(verdicts.at<std::uint8_t>(pixel));
@@ -88,26 +94,29 @@ void FeatureExtractor::extract_level(std::size_t level,
                                      const cv::Mat& verdicts,
                                      Features& features) {
   const cv::Mat& image = pyramid_[level];
+  const Eigen::Vector2d scale(static_cast<double>(camera_.width) / image.cols,
+                              static_cast<double>(camera_.height) / image.rows);
+  const bool leaves_out = dynamic_pixels_ == DynamicPixels::kLeaveOut && !verdicts.empty();
   corners_.clear();
   dynamic_corners_.clear();
   for (const cv::KeyPoint& corner : detector_.detect(image, kMargin)) {
-    const bool dynamic = dynamic_pixels_ == DynamicPixels::kLeaveOut &&
-                         verdict_at(verdicts, raw_pixel(to_level_0(corner.pt, image.size()))) ==
-                             FeatureVerdict::kDynamic;
+    const bool dynamic =
+        leaves_out &&
+        verdict_at(verdicts, raw_pixel(to_level_0(corner.pt, scale))) == FeatureVerdict::kDynamic;
     (dynamic ? dynamic_corners_ : corners_).push_back(corner);
   }
   features.counts.dynamic += static_cast<int>(dynamic_corners_.size());
   keep_spread(corners_, image.size(), budgets_[level]);
   keep_spread(dynamic_corners_, image.size(), budgets_[level]);
   for (const cv::KeyPoint& corner : dynamic_corners_) {
-    left_out_.push_back(raw_pixel(to_level_0(corner.pt, image.size())));
+    left_out_.push_back(raw_pixel(to_level_0(corner.pt, scale)));
   }
   cv::GaussianBlur(image, blurred_, {kBlurSize, kBlurSize}, kBlurSigma, kBlurSigma);
   for (const cv::KeyPoint& corner : corners_) {
     const int x = static_cast<int>(corner.pt.x);
     const int y = static_cast<int>(corner.pt.y);
     Feature feature;
-    feature.pixel = to_level_0(corner.pt, image.size());
+    feature.pixel = to_level_0(corner.pt, scale);
     const cv::Point raw = raw_pixel(feature.pixel);
     feature.raw_x = static_cast<std::int16_t>(raw.x);
     feature.raw_y = static_cast<std::int16_t>(raw.y);
@@ -117,14 +126,6 @@ void FeatureExtractor::extract_level(std::size_t level,
     features.items.push_back(feature);
     features.descriptors.push_back(oriented_brief(blurred_, x, y, feature.angle));
   }
-}
-
-/// Centres of pixels are at integers, so a level's pixel (0, 0) lies right below that of level 0.
-Eigen::Vector2f FeatureExtractor::to_level_0(const cv::Point2f& point, const cv::Size& size) const {
-  const double scale_x = static_cast<double>(camera_.width) / size.width;
-  const double scale_y = static_cast<double>(camera_.height) / size.height;
-  return {static_cast<float>((point.x + 0.5) * scale_x - 0.5),
-          static_cast<float>((point.y + 0.5) * scale_y - 0.5)};
 }
 
 cv::Point FeatureExtractor::raw_pixel(const Eigen::Vector2f& pixel) const {

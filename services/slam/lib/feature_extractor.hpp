@@ -34,8 +34,6 @@ class FeatureExtractor {
   void build_pyramid(const cv::Mat& colour);
   void extract_level(std::size_t level, const cv::Mat& verdicts, Features& features);
   void undistort(Features& features) const;
-  /// `point` of a level's image of `size`, in pixels of the frame.
-  [[nodiscard]] Eigen::Vector2f to_level_0(const cv::Point2f& point, const cv::Size& size) const;
   [[nodiscard]] cv::Point raw_pixel(const Eigen::Vector2f& pixel) const;
 
   FeatureConfig config_;
