@@ -1,12 +1,13 @@
 #include "services/slam/lib/corner_detector.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <opencv2/features2d.hpp>
-#include <tuple>
+#include <utility>
 
 #include "common/core/check.hpp"
 
@@ -18,42 +19,72 @@ constexpr int kBareCorners = 2;  // a tile with fewer is searched again with les
 constexpr int kFastRadius = 3;   // FAST reads a circle of this radius
 
 struct Ranked {
-  int rank;  ///< 0 = strongest of its cell
-  float response;
-  int y;
-  int x;
+  std::uint64_t order;  ///< the stronger, then the higher up and the further left, the smaller
   std::size_t index;
+
+  /// By rows, then from left to right.
+  [[nodiscard]] std::uint32_t place() const { return static_cast<std::uint32_t>(order); }
 };
 
-bool comes_first(const Ranked& a, const Ranked& b) {
-  return std::tie(a.rank, b.response, a.y, a.x) < std::tie(b.rank, a.response, b.y, b.x);
+/// Everything that decides about a corner in one number. Of positive floats the larger one has the
+/// larger bits, too.
+std::uint64_t order_of(const cv::KeyPoint& corner) {
+  const std::uint64_t weakness = ~std::bit_cast<std::uint32_t>(corner.response);
+  const auto y = static_cast<std::uint64_t>(corner.pt.y);
+  const auto x = static_cast<std::uint64_t>(corner.pt.x);
+  return weakness << 32U | y << 16U | x;
 }
 
-/// All corners, ranked by strength within their cells; cell after cell. Sorting the few of a cell
-/// is much faster than sorting all.
-template <typename CellOf>
-std::vector<Ranked> by_cell(const std::vector<cv::KeyPoint>& corners,
-                            std::size_t cells,
-                            const CellOf& cell_of) {
-  std::vector<std::size_t> ends(cells + 1, 0);
-  for (const cv::KeyPoint& corner : corners) ++ends[cell_of(corner) + 1];
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<Ranked> ranked(corners.size());
+/// All corners, by strength within their cells.
+struct RankedCells {
+  std::vector<Ranked> corners;     ///< cell after cell
+  std::vector<std::size_t> begin;  ///< of each cell in `corners`, and the end of the last
+};
+
+/// Sorting the few of a cell is much faster than sorting all.
+RankedCells by_cell(const std::vector<cv::KeyPoint>& corners, int columns, int rows, int side) {
+  std::vector<std::size_t> cell_of(corners.size());
+  std::transform(corners.begin(), corners.end(), cell_of.begin(), [&](const auto& corner) {
+    const auto y = static_cast<unsigned>(corner.pt.y);
+    const auto x = static_cast<unsigned>(corner.pt.x);
+    const auto cell = static_cast<unsigned>(side);
+    return y / cell * static_cast<unsigned>(columns) + x / cell;
+  });
+  const auto cells = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  RankedCells ranked{.corners = std::vector<Ranked>(corners.size()),
+                     .begin = std::vector<std::size_t>(cells + 1, 0)};
+  for (const std::size_t cell : cell_of) ++ranked.begin[cell + 1];
+  std::partial_sum(ranked.begin.begin(), ranked.begin.end(), ranked.begin.begin());
+  std::vector<std::size_t> next(ranked.begin.begin(), ranked.begin.end() - 1);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const cv::KeyPoint& corner = corners[i];
-    ranked[ends[cell_of(corner)]++] = {0, corner.response, static_cast<int>(corner.pt.y),
-                                       static_cast<int>(corner.pt.x), i};
+    ranked.corners[next[cell_of[i]]++] = {order_of(corners[i]), i};
   }
-  auto first = ranked.begin();
   for (std::size_t cell = 0; cell < cells; ++cell) {
-    const auto last = ranked.begin() + static_cast<std::ptrdiff_t>(ends[cell]);
-    std::sort(first, last, comes_first);  // by strength: all ranks are 0 so far
-    for (auto corner = first; corner != last; ++corner) {
-      corner->rank = static_cast<int>(corner - first);
-    }
-    first = last;
+    const auto first = ranked.corners.begin();
+    std::ranges::sort(first + static_cast<std::ptrdiff_t>(ranked.begin[cell]),
+                      first + static_cast<std::ptrdiff_t>(ranked.begin[cell + 1]), {},
+                      &Ranked::order);
   }
   return ranked;
+}
+
+/// The first of each cell, then the second of each, until there are `wanted`: of those that come
+/// last the strongest.
+std::vector<Ranked> take_in_turn(const RankedCells& ranked, std::size_t wanted) {
+  std::vector<Ranked> taken;
+  for (std::size_t rank = 0; taken.size() < wanted; ++rank) {
+    const auto round = static_cast<std::ptrdiff_t>(taken.size());
+    for (std::size_t cell = 0; cell + 1 < ranked.begin.size(); ++cell) {
+      const std::size_t i = ranked.begin[cell] + rank;
+      if (i < ranked.begin[cell + 1]) taken.push_back(ranked.corners[i]);
+    }
+    if (taken.size() <= wanted) continue;
+    std::ranges::nth_element(taken.begin() + round,
+                             taken.begin() + static_cast<std::ptrdiff_t>(wanted), taken.end(), {},
+                             &Ranked::order);
+    taken.resize(wanted);
+  }
+  return taken;
 }
 
 }  // namespace
@@ -108,21 +139,12 @@ void keep_spread(std::vector<cv::KeyPoint>& corners, const cv::Size& size, int w
   const int cell = std::max(1, static_cast<int>(std::sqrt(area / wanted)));
   const int columns = size.width / cell + 1;
   const int rows = size.height / cell + 1;
-  const auto cell_of = [&](const cv::KeyPoint& corner) {
-    return static_cast<std::size_t>(static_cast<int>(corner.pt.y) / cell * columns +
-                                    static_cast<int>(corner.pt.x) / cell);
-  };
-  const int cell_count = columns * rows;
-  const auto cells = static_cast<std::size_t>(cell_count);
-  std::vector<Ranked> ranked = by_cell(corners, cells, cell_of);
-  std::nth_element(ranked.begin(), ranked.begin() + wanted, ranked.end(), comes_first);
-  ranked.resize(static_cast<std::size_t>(wanted));
-  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
-    return std::tie(a.y, a.x) < std::tie(b.y, b.x);
-  });
+  std::vector<Ranked> taken =
+      take_in_turn(by_cell(corners, columns, rows, cell), static_cast<std::size_t>(wanted));
+  std::ranges::sort(taken, {}, &Ranked::place);
   std::vector<cv::KeyPoint> kept;
-  kept.reserve(ranked.size());
-  for (const Ranked& corner : ranked) kept.push_back(corners[corner.index]);
+  kept.reserve(taken.size());
+  for (const Ranked& corner : taken) kept.push_back(corners[corner.index]);
   corners = std::move(kept);
 }
 

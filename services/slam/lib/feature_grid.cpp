@@ -1,21 +1,12 @@
 #include "services/slam/lib/feature_grid.hpp"
 
-#include <algorithm>
-
 #include "services/slam/lib/features.hpp"
 
 namespace tsg {
 namespace {
 
-constexpr int kCellSize = 10;  // pixels: the usual search radius; a search touches about 9 cells
-
 std::size_t cells_along(int pixels) {
-  return static_cast<std::size_t>((pixels + kCellSize - 1) / kCellSize);
-}
-
-std::size_t cell_at(float coordinate, std::size_t cells) {
-  const float cell = std::max(0.0F, coordinate / static_cast<float>(kCellSize));
-  return std::min(static_cast<std::size_t>(cell), cells - 1);
+  return static_cast<std::size_t>((pixels + FeatureGrid::kCellSize - 1) / FeatureGrid::kCellSize);
 }
 
 }  // namespace
@@ -34,8 +25,5 @@ FeatureGrid::FeatureGrid(const std::vector<Feature>& features, int width, int he
     order_[next[cell_of(features[i])]++] = static_cast<std::uint16_t>(i);
   }
 }
-
-std::size_t FeatureGrid::column_of(float x) const { return cell_at(x, columns_); }
-std::size_t FeatureGrid::row_of(float y) const { return cell_at(y, rows_); }
 
 }  // namespace tsg

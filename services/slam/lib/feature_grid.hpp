@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -12,6 +13,9 @@ struct Feature;
 /// Finds the features near a pixel without looking at all of them.
 class FeatureGrid {
  public:
+  /// Pixels: the usual search radius; a search touches about 9 cells.
+  static constexpr int kCellSize = 10;
+
   FeatureGrid() = default;
   /// Features outside the image (undistortion moves some there) are filed in the border cells.
   FeatureGrid(const std::vector<Feature>& features, int width, int height);
@@ -33,8 +37,12 @@ class FeatureGrid {
   }
 
  private:
-  [[nodiscard]] std::size_t column_of(float x) const;
-  [[nodiscard]] std::size_t row_of(float y) const;
+  [[nodiscard]] static std::size_t cell_at(float coordinate, std::size_t cells) {
+    const float cell = std::max(0.0F, coordinate / static_cast<float>(kCellSize));
+    return std::min(static_cast<std::size_t>(cell), cells - 1);
+  }
+  [[nodiscard]] std::size_t column_of(float x) const { return cell_at(x, columns_); }
+  [[nodiscard]] std::size_t row_of(float y) const { return cell_at(y, rows_); }
 
   std::size_t columns_ = 0;
   std::size_t rows_ = 0;

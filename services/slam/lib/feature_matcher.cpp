@@ -40,11 +40,17 @@ struct Best {
   }
 };
 
+/// All tests in one: each fails now and then, and a branch that cannot be foretold takes longer
+/// than the tests.
 bool fits(const Feature& feature, const MatchTarget& target) {
-  if (feature.level < target.min_level || feature.level > target.max_level) return false;
-  if ((feature.pixel - target.pixel).cwiseAbs().maxCoeff() > target.radius) return false;
-  return !feature.has_depth() ||
-         std::abs(feature.inverse_depth - target.inverse_depth) <= target.max_depth_error;
+  const bool is_level_right =
+      (feature.level >= target.min_level) & (feature.level <= target.max_level);
+  const bool is_near = (std::abs(feature.pixel.x() - target.pixel.x()) <= target.radius) &
+                       (std::abs(feature.pixel.y() - target.pixel.y()) <= target.radius);
+  const bool is_depth_right =
+      !feature.has_depth() |
+      (std::abs(feature.inverse_depth - target.inverse_depth) <= target.max_depth_error);
+  return is_level_right & is_near & is_depth_right;
 }
 
 /// Of several matches to one feature the closest stays. Sorted by feature.
@@ -96,7 +102,7 @@ std::vector<FeatureMatch> match_by_projection(const Features& features,
     Best best;
     features.grid.for_each_near(target.pixel, target.radius, [&](int index) {
       const auto i = static_cast<std::size_t>(index);
-      if ((!taken.empty() && taken[i]) || !fits(features.items[i], target)) return;
+      if (!fits(features.items[i], target) || (!taken.empty() && taken[i])) return;
       best.offer(index, hamming_distance(*target.descriptor, features.descriptors[i]),
                  features.items[i].level);
     });

@@ -44,7 +44,7 @@ NormalEquations linearise(const ObservationModel& model,
     equations.cost += huber_cost(pixel_norm) + huber_cost(depth_norm);
     const double pixel_weight = huber_weight(pixel_norm);
     const Eigen::Vector3d weights(pixel_weight, pixel_weight, huber_weight(depth_norm));
-    const Jacobian36 J = model.point_jacobian(observation, p_camera) * twist_jacobian(p_camera);
+    const Jacobian36 J = chain_with_twist(model.point_jacobian(observation, p_camera), p_camera);
     const Eigen::Matrix<double, 6, 3> weighted = J.transpose() * weights.asDiagonal();
     equations.H.noalias() += weighted * J;
     equations.b.noalias() -= weighted * residual;
