@@ -12,8 +12,6 @@ namespace tsg {
 namespace {
 
 constexpr int kMargin = kPatchRadius + 1;
-constexpr double kBlurSigma = 2.0;  // pixels, of the ORB paper
-constexpr int kBlurSize = 7;
 
 /// Features per level in proportion to the level's side length, `total` in sum.
 std::vector<int> share_out(int total, const std::vector<double>& scales) {
@@ -111,7 +109,7 @@ void FeatureExtractor::extract_level(std::size_t level,
   for (const cv::KeyPoint& corner : dynamic_corners_) {
     left_out_.push_back(raw_pixel(to_level_0(corner.pt, scale)));
   }
-  cv::GaussianBlur(image, blurred_, {kBlurSize, kBlurSize}, kBlurSigma, kBlurSigma);
+  blur_.blur(image, blurred_);
   for (const cv::KeyPoint& corner : corners_) {
     const int x = static_cast<int>(corner.pt.x);
     const int y = static_cast<int>(corner.pt.y);

@@ -6,6 +6,7 @@
 #include "common/rgbd/rgbd_frame.hpp"
 #include "services/slam/lib/corner_detector.hpp"
 #include "services/slam/lib/features.hpp"
+#include "services/slam/lib/patch_blur.hpp"
 #include "services/slam/lib/slam_config.hpp"
 
 namespace tsg {
@@ -46,6 +47,7 @@ class FeatureExtractor {
   std::vector<cv::KeyPoint> dynamic_corners_;
   std::vector<cv::Point> left_out_;
   DynamicPixels dynamic_pixels_ = DynamicPixels::kLeaveOut;
+  PatchBlur blur_;
   cv::Mat blurred_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -33,15 +34,28 @@ VerdictOfLabel verdict_of_labels(const InstanceSegmentation& mask,
 }
 
 cv::Mat verdicts_of_pixels(const InstanceSegmentation& mask, const DynamicFilterConfig& config) {
-  const VerdictOfLabel verdict_of = verdict_of_labels(mask, config);
-  cv::Mat table(1, 256, CV_8UC1);
-  for (int label = 0; label < 256; ++label) {
-    table.at<std::uint8_t>(label) =
-        static_cast<std::uint8_t>(verdict_of[static_cast<std::size_t>(label)]);
-  }
-  cv::Mat verdicts;
-  cv::LUT(mask.labels, table, verdicts);
+  cv::Mat verdicts = cv::Mat::zeros(mask.labels.size(), CV_8UC1);
+  raise_verdicts(mask, config, verdicts);
   return verdicts;
+}
+
+void raise_verdicts(const InstanceSegmentation& mask,
+                    const DynamicFilterConfig& config,
+                    cv::Mat& verdicts) {
+  const VerdictOfLabel verdict_of = verdict_of_labels(mask, config);
+  for (int y = 0; y < verdicts.rows; ++y) {
+    const auto* label = mask.labels.ptr<std::uint8_t>(y);
+    auto* verdict = verdicts.ptr<std::uint8_t>(y);
+    for (int x = 0; x < verdicts.cols;) {
+      std::uint64_t eight = 1;
+      if (x + 8 <= verdicts.cols) std::memcpy(&eight, label + x, sizeof eight);
+      const int end = std::min(x + 8, verdicts.cols);
+      if (eight == 0) x = end;  // background, as most of an image is
+      for (; x < end; ++x) {
+        verdict[x] = std::max(verdict[x], static_cast<std::uint8_t>(verdict_of[label[x]]));
+      }
+    }
+  }
 }
 
 cv::Mat exact_verdicts(const InstanceSegmentation& mask, const DynamicFilterConfig& config) {

@@ -21,8 +21,13 @@ using VerdictOfLabel = std::array<FeatureVerdict, 256>;
 [[nodiscard]] cv::Mat verdicts_of_pixels(const InstanceSegmentation& mask,
                                          const DynamicFilterConfig& config);
 
-/// The same, with dynamic instances dilated by config.dilation_px: without depth their edges are
-/// not known better.
+/// Raises `verdicts` (CV_8UC1, the mask's size) to those where they are lower.
+void raise_verdicts(const InstanceSegmentation& mask,
+                    const DynamicFilterConfig& config,
+                    cv::Mat& verdicts);
+
+/// What verdicts_of_pixels() says, with dynamic instances dilated by config.dilation_px: without
+/// depth their edges are not known better.
 [[nodiscard]] cv::Mat exact_verdicts(const InstanceSegmentation& mask,
                                      const DynamicFilterConfig& config);
 

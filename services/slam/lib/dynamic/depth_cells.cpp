@@ -1,5 +1,6 @@
 #include "services/slam/lib/dynamic/depth_cells.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -72,6 +73,22 @@ cv::Mat depth_of_cells(const RgbdFrame& frame) {
     }
   }
   return cells;
+}
+
+cv::Mat pixels_of_cells(const cv::Mat& cells, const cv::Size& size) {
+  cv::Mat pixels(size, CV_8UC1);
+  const int covered = std::min(size.width, cells.cols * kCellSide);
+  for (int y = 0; y < size.height; ++y) {
+    auto* row = pixels.ptr<std::uint8_t>(y);
+    if (y % kCellSide != 0 || y / kCellSide >= cells.rows) {
+      std::copy_n(pixels.ptr<std::uint8_t>(y - 1), size.width, row);
+      continue;
+    }
+    const auto* cell = cells.ptr<std::uint8_t>(y / kCellSide);
+    for (int x = 0; x < covered; ++x) row[x] = cell[x / kCellSide];
+    std::fill(row + covered, row + size.width, cell[cells.cols - 1]);
+  }
+  return pixels;
 }
 
 void grow_over_surface(const cv::Mat& depth, const GrowLimits& limits, cv::Mat& marked) {

@@ -28,6 +28,10 @@ inline constexpr int kCellSide = 4;
 /// pixels, as what moves usually stands in front.
 [[nodiscard]] cv::Mat depth_of_cells(const RgbdFrame& frame);
 
+/// An image of `size` with the value of its cell (CV_8UC1) at each pixel; of the nearest one where
+/// the image is no whole number of cells.
+[[nodiscard]] cv::Mat pixels_of_cells(const cv::Mat& cells, const cv::Size& size);
+
 /// Which cells flow into a region of cells.
 struct GrowLimits {
   float nearest = 0.0F;   ///< metres

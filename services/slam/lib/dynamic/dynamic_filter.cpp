@@ -69,7 +69,10 @@ bool DynamicFilter::leaves_out_by_class() const {
 cv::Mat DynamicFilter::judge_by_class(const RgbdFrame& frame,
                                       const InstanceSegmentation* mask,
                                       const SE3& T_world_camera) {
-  past_.add({.seq = frame.seq, .stamp_ns = frame.stamp_ns, .depth = depth_of_cells(frame)});
+  const bool needs_depth = config_.method == DynamicMethod::kFull;
+  past_.add({.seq = frame.seq,
+             .stamp_ns = frame.stamp_ns,
+             .depth = needs_depth ? depth_of_cells(frame) : cv::Mat()});
   has_new_mask_ = false;
   located_.release();
   uses_mask_ =
@@ -123,23 +126,18 @@ bool DynamicFilter::take_in(const InstanceSegmentation& mask, const SE3& T_world
 /// By where the tracks are, and where the mask is of this very frame by its pixels too.
 cv::Mat DynamicFilter::by_place(const InstanceSegmentation* exact, const cv::Size& size) const {
   cv::Mat table = cv::Mat::zeros(1, 256, CV_8UC1);
-  cv::Mat dynamic = cv::Mat::zeros(located_.size(), CV_8UC1);
   for (std::size_t i = 0; i < tracks_.tracks().size(); ++i) {
     table.at<std::uint8_t>(static_cast<int>(i) + 1) =
         static_cast<std::uint8_t>(tracks_.tracks()[i].prior);
   }
   cv::Mat cells;
   cv::LUT(located_, table, cells);
-  dynamic = cells == static_cast<double>(FeatureVerdict::kDynamic);
+  cv::Mat dynamic = cells == static_cast<double>(FeatureVerdict::kDynamic);
   // What was carried here may have gone on to where the sensor sees nothing.
   if (exact == nullptr) add_shadow(past_.now().depth, dynamic);
   cells.setTo(static_cast<double>(FeatureVerdict::kDynamic), dynamic);
-  cv::Mat verdicts;
-  cv::resize(cells, verdicts, {cells.cols * kCellSide, cells.rows * kCellSide}, 0, 0,
-             cv::INTER_NEAREST);
-  cv::copyMakeBorder(verdicts, verdicts, 0, size.height - verdicts.rows, 0,
-                     size.width - verdicts.cols, cv::BORDER_REPLICATE);
-  if (exact != nullptr) cv::max(verdicts, verdicts_of_pixels(*exact, config_), verdicts);
+  cv::Mat verdicts = pixels_of_cells(cells, size);
+  if (exact != nullptr) raise_verdicts(*exact, config_, verdicts);
   // A corner beside a silhouette is half of what moves, whatever its depth.
   dilate_dynamic(verdicts, static_cast<int>(std::lround(config_.dilation_px)));
   return verdicts;

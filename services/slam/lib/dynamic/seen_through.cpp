@@ -1,7 +1,9 @@
 #include "services/slam/lib/dynamic/seen_through.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "services/slam/lib/nearest_depth.hpp"
 
@@ -44,30 +46,58 @@ CellEvidence judge(const cv::Mat& then, float depth, const cv::Point& cell, doub
                                                         : CellEvidence::kNone;
 }
 
-/// Lays cells of one camera into the view of another, in single precision: it is done for all.
+/// Where the cells of a row lie in another view.
+struct LaidRow {
+  std::vector<float> depth;  ///< from there, metres
+  std::vector<int> column;   ///< of no meaning where `depth` is not positive
+  std::vector<int> row;
+};
+
+/// Lays cells of one camera into the view of another, in single precision and row by row: it is
+/// done for all, and so several are done at once.
 class Overlay {
  public:
   Overlay(const CameraModel& camera, const SE3& T_then_now)
       : R_(T_then_now.rotation_matrix().cast<float>()),
         t_(T_then_now.translation().cast<float>()),
         focal_(static_cast<float>(camera.fx), static_cast<float>(camera.fy)),
-        centre_(static_cast<float>(camera.cx), static_cast<float>(camera.cy)) {}
-
-  [[nodiscard]] Eigen::Vector3f point(int column, int row, float depth) const {
-    const Eigen::Vector3f ray((static_cast<float>(column) - centre_.x()) / focal_.x(),
-                              (static_cast<float>(row) - centre_.y()) / focal_.y(), 1.0F);
-    return R_ * (depth * ray) + t_;
+        centre_(static_cast<float>(camera.cx), static_cast<float>(camera.cy)) {
+    for (int column = 0; column < camera.width; ++column) {
+      rays_x_.push_back((static_cast<float>(column) - centre_.x()) / focal_.x());
+    }
   }
-  [[nodiscard]] cv::Point cell(const Eigen::Vector3f& p_then) const {
-    return {cvRound(focal_.x() * p_then.x() / p_then.z() + centre_.x()),
-            cvRound(focal_.y() * p_then.y() / p_then.z() + centre_.y())};
+
+  void lay(const cv::Mat& depth, int row, LaidRow& laid) const {
+    const auto width = rays_x_.size();
+    laid.depth.resize(width);
+    laid.column.resize(width);
+    laid.row.resize(width);
+    const auto* depths = depth.ptr<float>(row);
+    const float ray_y = (static_cast<float>(row) - centre_.y()) / focal_.y();
+    for (std::size_t i = 0; i < width; ++i) {
+      const float x = depths[i] * rays_x_[i];
+      const float y = depths[i] * ray_y;
+      const float z_then = coordinate(2, x, y, depths[i]);
+      laid.depth[i] = z_then;
+      laid.column[i] = cell(focal_.x() * coordinate(0, x, y, depths[i]) / z_then + centre_.x());
+      laid.row[i] = cell(focal_.y() * coordinate(1, x, y, depths[i]) / z_then + centre_.y());
+    }
   }
 
  private:
+  [[nodiscard]] float coordinate(int axis, float x, float y, float z) const {
+    return R_(axis, 0) * x + (R_(axis, 1) * y + R_(axis, 2) * z) + t_[axis];
+  }
+  [[nodiscard]] static int cell(float pixel) {
+    constexpr float kFar = 1e6F;  // outside, and still a whole number
+    return static_cast<int>(std::rint(std::min(std::max(-kFar, pixel), kFar)));
+  }
+
   Eigen::Matrix3f R_;
   Eigen::Vector3f t_;
   Eigen::Vector2f focal_;
   Eigen::Vector2f centre_;
+  std::vector<float> rays_x_;  ///< x/z of each column
 };
 
 }  // namespace
@@ -80,16 +110,17 @@ void compare_depth(const CameraModel& camera,
   const Overlay overlay(camera, then.T_world_camera.inverse() * now.T_world_camera);
   const cv::Rect inner(1, 1, then.depth.cols - 2,
                        then.depth.rows - 2);  // all cells around are there
+  LaidRow laid;
   for (int y = 0; y < now.depth.rows; ++y) {
+    overlay.lay(now.depth, y, laid);
     const auto* depths = now.depth.ptr<float>(y);
     auto* found = evidence.ptr<std::uint8_t>(y);
     for (int x = 0; x < now.depth.cols; ++x) {
-      if (depths[x] < kMinDepth) continue;
-      const Eigen::Vector3f p_then = overlay.point(x, y, depths[x]);
-      if (p_then.z() < kMinDepth) continue;
-      const cv::Point cell = overlay.cell(p_then);
+      const auto i = static_cast<std::size_t>(x);
+      if (depths[x] < kMinDepth || laid.depth[i] < kMinDepth) continue;
+      const cv::Point cell(laid.column[i], laid.row[i]);
       if (!inner.contains(cell)) continue;
-      const CellEvidence says = judge(then.depth, p_then.z(), cell, sigma);
+      const CellEvidence says = judge(then.depth, laid.depth[i], cell, sigma);
       if (says != CellEvidence::kNone) found[x] = static_cast<std::uint8_t>(says);
     }
   }
@@ -98,19 +129,19 @@ void compare_depth(const CameraModel& camera,
 cv::Mat appeared_regions(const cv::Mat& evidence, int min_cells) {
   const cv::Mat appeared = evidence == static_cast<double>(CellEvidence::kAppeared);
   cv::Mat labels;
-  cv::Mat stats;
-  cv::Mat centroids;
-  const int count = cv::connectedComponentsWithStats(appeared, labels, stats, centroids, 8, CV_32S);
+  const int count = cv::connectedComponents(appeared, labels, 8, CV_32S);
+  std::vector<int> areas(static_cast<std::size_t>(count), 0);
+  std::for_each(labels.begin<int>(), labels.end<int>(),
+                [&areas](int label) { ++areas[static_cast<std::size_t>(label)]; });
+  areas.front() = 0;  // what did not appear
   cv::Mat kept = cv::Mat::zeros(evidence.size(), CV_8UC1);
   for (int y = 0; y < labels.rows; ++y) {
     const auto* label = labels.ptr<int>(y);
     auto* row = kept.ptr<std::uint8_t>(y);
     for (int x = 0; x < labels.cols; ++x) {
-      const bool is_big = label[x] > 0 && stats.at<int>(label[x], cv::CC_STAT_AREA) >= min_cells;
-      row[x] = is_big ? 255 : 0;
+      row[x] = areas[static_cast<std::size_t>(label[x])] >= min_cells ? 255 : 0;
     }
   }
-  CV_Assert(count >= 1);
   return kept;
 }
 
