@@ -8,8 +8,8 @@
 namespace tsg {
 
 /// The slight blur under descriptors: a Gaussian of 2 pixels, as in the ORB paper, over 7x7, in
-/// whole numbers. What cv::GaussianBlur does with grey images, bit for bit, in two thirds of the time.
-/// Not thread-safe: buffers are reused from call to call.
+/// whole numbers. What cv::GaussianBlur does with grey images, bit for bit, in two thirds of the
+/// time. Not thread-safe: buffers are reused from call to call.
 class PatchBlur {
  public:
   /// `image` is CV_8UC1 and at least 4 pixels a side; mirrored at its borders.
