@@ -40,17 +40,13 @@ struct Best {
   }
 };
 
-/// All tests in one: each fails now and then, and a branch that cannot be foretold takes longer
-/// than the tests.
+/// Whether the feature can be what the target looks for, by all but its descriptor.
 bool fits(const Feature& feature, const MatchTarget& target) {
-  const bool is_level_right =
-      (feature.level >= target.min_level) & (feature.level <= target.max_level);
-  const bool is_near = (std::abs(feature.pixel.x() - target.pixel.x()) <= target.radius) &
-                       (std::abs(feature.pixel.y() - target.pixel.y()) <= target.radius);
-  const bool is_depth_right =
-      !feature.has_depth() |
-      (std::abs(feature.inverse_depth - target.inverse_depth) <= target.max_depth_error);
-  return is_level_right & is_near & is_depth_right;
+  return feature.level >= target.min_level && feature.level <= target.max_level &&
+         std::abs(feature.pixel.x() - target.pixel.x()) <= target.radius &&
+         std::abs(feature.pixel.y() - target.pixel.y()) <= target.radius &&
+         (!feature.has_depth() ||
+          std::abs(feature.inverse_depth - target.inverse_depth) <= target.max_depth_error);
 }
 
 /// Of several matches to one feature the closest stays. Sorted by feature.
