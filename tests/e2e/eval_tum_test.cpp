@@ -69,10 +69,6 @@ class EvalTum : public ::testing::Test {
 };
 std::unique_ptr<TempFolder> EvalTum::folder;
 
-nlohmann::json json_of(const ProgramResult& result) {
-  return nlohmann::json::parse(result.output.substr(result.output.find("\n{\n")), nullptr, false);
-}
-
 TEST_F(EvalTum, RunsTheSequenceWithAndWithoutRemovalAndNamesWhatIsMissing) {
   const ProgramResult result = eval_tum({"--table", "4", "--segmentation", "dataset", "--json"});
   ASSERT_EQ(result.end.exit_code, 0) << result.output;
