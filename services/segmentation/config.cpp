@@ -24,6 +24,7 @@ SegmentationConfig load_segmentation_config(const ConfigFile& file) {
   reader.read("nice", config.nice);
   reader.read("dataset.folder", config.dataset_folder);
   reader.read("model.file", config.network.model.file);
+  reader.read("model.labels", config.network.labels_file);
   reader.read("model.runtime_library", config.network.model.runtime_library);
   reader.read("model.threads", config.network.model.threads);
   reader.read("model.score_threshold", config.network.decoder.score_threshold);

@@ -5,14 +5,14 @@
 
 #include "common/app/config_file.hpp"
 #include "common/rgbd/mask_faults.hpp"
-#include "services/segmentation/lib/yolo_seg_provider.hpp"
+#include "services/segmentation/lib/model_provider.hpp"
 
 namespace tsg {
 
 struct SegmentationConfig {
   std::string provider = "model";   // "model" or "dataset"
   std::string dataset_folder = {};  // with mask/ and instances.json; for provider "dataset"
-  YoloSegProviderConfig network = {};
+  ModelProviderConfig network = {};
   int nice = 5;            // on a busy machine tracking must win over masks
   MaskFaults faults = {};  // for evaluation only
 

@@ -13,13 +13,14 @@ using testing::HasSubstr;
 TEST(SegmentationConfig, IsReadFromItsSection) {
   const SegmentationConfig config = load_segmentation_config(ConfigFile::from_overrides(
       {"segmentation.provider=dataset", "segmentation.nice=7", "segmentation.dataset.folder=/data",
-       "segmentation.model.file=/model.onnx",
+       "segmentation.model.file=/model.onnx", "segmentation.model.labels=/coco.txt",
        "segmentation.model.runtime_library=/libonnxruntime.so", "segmentation.model.threads=3",
        "segmentation.model.score_threshold=0.4", "segmentation.model.nms_iou=0.7"}));
   EXPECT_EQ(config.provider, "dataset");
   EXPECT_EQ(config.nice, 7);
   EXPECT_EQ(config.dataset_folder, "/data");
   EXPECT_EQ(config.network.model.file, "/model.onnx");
+  EXPECT_EQ(config.network.labels_file, "/coco.txt");
   EXPECT_EQ(config.network.model.runtime_library, "/libonnxruntime.so");
   EXPECT_EQ(config.network.model.threads, 3);
   EXPECT_DOUBLE_EQ(config.network.decoder.score_threshold, 0.4);

@@ -46,7 +46,7 @@ Expected<std::unique_ptr<SegmentationProvider>> make_provider(const Segmentation
     return DatasetProvider::make(config.dataset_folder);
   }
   if (config.network.model.file.empty()) return not_set("model.file", config.provider);
-  return YoloSegProvider::make(config.network);
+  return ModelProvider::make(config.network);
 }
 
 std::string with_one_decimal(double value) {

@@ -11,19 +11,6 @@ namespace tsg {
 
 namespace {
 
-constexpr float kOneOver255 = 1.0F / 255.0F;
-constexpr float kBorder = 114.0F * kOneOver255;  // the grey that YOLO networks are trained with
-
-/// One row of pixels to one row of each plane, without scaling.
-void write_row(const std::uint8_t* bgr, int width, float* red, float* green, float* blue) {
-  for (int x = 0; x < width; ++x) {
-    const std::uint8_t* pixel = bgr + static_cast<std::ptrdiff_t>(3) * x;
-    blue[x] = static_cast<float>(pixel[0]) * kOneOver255;
-    green[x] = static_cast<float>(pixel[1]) * kOneOver255;
-    red[x] = static_cast<float>(pixel[2]) * kOneOver255;
-  }
-}
-
 /// One channel of a row of pixels, between two of them.
 float interpolate(const std::uint8_t* bgr, const LinearTap& tap, int channel) {
   const auto left = static_cast<float>(bgr[3 * tap.first + channel]);
@@ -54,7 +41,7 @@ cv::Rect2f Letterbox::to_frame(const cv::Rect2f& input_box) const {
   return cv::Rect2d(min, max);
 }
 
-Letterbox make_letterbox(cv::Size frame_size, cv::Size input_size) {
+Letterbox make_letterbox(cv::Size frame_size, cv::Size input_size, Placement placement) {
   TSG_CHECK(frame_size.area() > 0 && input_size.area() > 0);
   const double scale = std::min(static_cast<double>(input_size.width) / frame_size.width,
                                 static_cast<double>(input_size.height) / frame_size.height);
@@ -63,68 +50,92 @@ Letterbox make_letterbox(cv::Size frame_size, cv::Size input_size) {
   letterbox.input_size = input_size;
   letterbox.image.width = std::max(1, static_cast<int>(std::lround(frame_size.width * scale)));
   letterbox.image.height = std::max(1, static_cast<int>(std::lround(frame_size.height * scale)));
-  letterbox.image.x = (input_size.width - letterbox.image.width) / 2;
-  letterbox.image.y = (input_size.height - letterbox.image.height) / 2;
+  if (placement == Placement::kCentred) {
+    letterbox.image.x = (input_size.width - letterbox.image.width) / 2;
+    letterbox.image.y = (input_size.height - letterbox.image.height) / 2;
+  }
   // Rounding to whole pixels makes the two scales differ by a little.
   letterbox.scale_x = static_cast<double>(letterbox.image.width) / frame_size.width;
   letterbox.scale_y = static_cast<double>(letterbox.image.height) / frame_size.height;
   return letterbox;
 }
 
-InputTensorWriter::InputTensorWriter(const Letterbox& letterbox)
-    : letterbox_(letterbox),
-      columns_(frame_taps(letterbox.frame_size.width, letterbox.image.width)),
-      rows_(frame_taps(letterbox.frame_size.height, letterbox.image.height)) {}
+InputTensorWriter::InputTensorWriter(cv::Size frame_size, const InputFormat& format)
+    : letterbox_(make_letterbox(frame_size, format.size, format.placement)),
+      columns_(frame_taps(frame_size.width, letterbox_.image.width)),
+      rows_(frame_taps(frame_size.height, letterbox_.image.height)) {
+  for (int channel = 0; channel < 3; ++channel) {
+    const int place = format.order == ChannelOrder::kRgb ? 2 - channel : channel;
+    channels_.at(static_cast<std::size_t>(channel)) = {
+        .plane = static_cast<std::size_t>(place) * static_cast<std::size_t>(format.size.area()),
+        .scale = 1.0F / format.deviation[place],
+        .offset = -format.mean[place] / format.deviation[place],
+        .border = format.border[place]};
+  }
+}
 
 void InputTensorWriter::write(const cv::Mat& bgr, std::span<float> tensor) const {
-  const auto plane = static_cast<std::size_t>(letterbox_.input_size.area());
   TSG_CHECK(bgr.type() == CV_8UC3 && bgr.size() == letterbox_.frame_size);
-  TSG_CHECK(tensor.size() == 3 * plane);
+  TSG_CHECK(tensor.size() == 3 * static_cast<std::size_t>(letterbox_.input_size.area()));
   const cv::Rect& image = letterbox_.image;
   if (image.size() != letterbox_.input_size) {
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      fill_border(tensor.data() + channel * plane);
-    }
+    for (const Channel& channel : channels_) fill_border(channel, tensor);
   }
   const bool is_scaled = image.size() != letterbox_.frame_size;
   for (int y = 0; y < image.height; ++y) {
     if (is_scaled) {
       write_row_scaled(bgr, y, tensor);
-      continue;
+    } else {
+      write_row(bgr, y, tensor);
     }
-    float* red = tensor.data() +
-                 static_cast<std::ptrdiff_t>(image.y + y) * letterbox_.input_size.width + image.x;
-    write_row(bgr.ptr<std::uint8_t>(y), image.width, red, red + plane, red + 2 * plane);
   }
 }
 
-void InputTensorWriter::fill_border(float* plane) const {
+void InputTensorWriter::fill_border(const Channel& channel, std::span<float> tensor) const {
   const cv::Size& input = letterbox_.input_size;
   const cv::Rect& image = letterbox_.image;
   for (int y = 0; y < input.height; ++y) {
-    float* row = plane + static_cast<std::ptrdiff_t>(y) * input.width;
+    float* row = tensor.data() + channel.plane + static_cast<std::ptrdiff_t>(y) * input.width;
     const bool shows_frame = y >= image.y && y < image.br().y;
-    std::fill(row, row + (shows_frame ? image.x : input.width), kBorder);
-    if (shows_frame) std::fill(row + image.br().x, row + input.width, kBorder);
+    std::fill(row, row + (shows_frame ? image.x : input.width), channel.border);
+    if (shows_frame) std::fill(row + image.br().x, row + input.width, channel.border);
+  }
+}
+
+void InputTensorWriter::write_row(const cv::Mat& bgr, int row, std::span<float> tensor) const {
+  const auto* pixels = bgr.ptr<std::uint8_t>(row);
+  const std::ptrdiff_t first =
+      static_cast<std::ptrdiff_t>(letterbox_.image.y + row) * letterbox_.input_size.width +
+      letterbox_.image.x;
+  const auto [blue, green, red] = channels_;
+  float* blues = tensor.data() + blue.plane + first;
+  float* greens = tensor.data() + green.plane + first;
+  float* reds = tensor.data() + red.plane + first;
+  for (int x = 0; x < letterbox_.image.width; ++x) {
+    const std::uint8_t* pixel = pixels + static_cast<std::ptrdiff_t>(3) * x;
+    blues[x] = static_cast<float>(pixel[0]) * blue.scale + blue.offset;
+    greens[x] = static_cast<float>(pixel[1]) * green.scale + green.offset;
+    reds[x] = static_cast<float>(pixel[2]) * red.scale + red.offset;
   }
 }
 
 void InputTensorWriter::write_row_scaled(const cv::Mat& bgr,
                                          int row,
                                          std::span<float> tensor) const {
-  const cv::Size& input = letterbox_.input_size;
   const LinearTap& vertical = rows_[static_cast<std::size_t>(row)];
   const auto* upper = bgr.ptr<std::uint8_t>(vertical.first);
   const auto* lower = bgr.ptr<std::uint8_t>(vertical.second);
-  const auto plane = static_cast<std::size_t>(input.area());
-  float* red = tensor.data() + static_cast<std::ptrdiff_t>(letterbox_.image.y + row) * input.width +
-               letterbox_.image.x;
+  float* first =
+      tensor.data() +
+      static_cast<std::ptrdiff_t>(letterbox_.image.y + row) * letterbox_.input_size.width +
+      letterbox_.image.x;
   for (std::size_t x = 0; x < columns_.size(); ++x) {
-    for (int channel = 0; channel < 3; ++channel) {
-      const float above = interpolate(upper, columns_[x], channel);
-      const float below = interpolate(lower, columns_[x], channel);
+    for (int i = 0; i < 3; ++i) {
+      const Channel& channel = channels_[static_cast<std::size_t>(i)];
+      const float above = interpolate(upper, columns_[x], i);
+      const float below = interpolate(lower, columns_[x], i);
       const float value = above + (below - above) * vertical.weight_of_second;
-      red[static_cast<std::size_t>(2 - channel) * plane + x] = value * kOneOver255;
+      first[channel.plane + x] = value * channel.scale + channel.offset;
     }
   }
 }

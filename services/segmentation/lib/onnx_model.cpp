@@ -14,9 +14,11 @@ namespace tsg {
 
 namespace {
 
-/// A tensor whose memory is ours and stays where it is between runs.
+/// A tensor whose memory is ours and stays where it is between runs. An output of no fixed shape
+/// has none: the runtime makes its memory in each run.
 struct BoundTensor {
-  std::vector<float> values;
+  std::vector<float> floats;
+  std::vector<std::int64_t> integers;
   Ort::Value view{nullptr};
 };
 
@@ -33,11 +35,13 @@ Ort::SessionOptions session_options(const OnnxModelConfig& config) {
 }
 
 TensorDescription describe(std::string name, const Ort::TypeInfo& type) {
-  TensorDescription tensor{.name = std::move(name), .shape = {}, .is_float32 = false};
+  TensorDescription tensor{.name = std::move(name), .shape = {}, .type = ElementType::kOther};
   if (type.GetONNXType() != ONNX_TYPE_TENSOR) return tensor;
   const auto info = type.GetTensorTypeAndShapeInfo();
   tensor.shape = info.GetShape();
-  tensor.is_float32 = info.GetElementType() == ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT;
+  const auto type_of_elements = info.GetElementType();
+  if (type_of_elements == ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT) tensor.type = ElementType::kFloat32;
+  if (type_of_elements == ONNX_TENSOR_ELEMENT_DATA_TYPE_INT64) tensor.type = ElementType::kInt64;
   return tensor;
 }
 
@@ -89,24 +93,42 @@ Expected<void> check_file(const std::string& file) {
   return {};
 }
 
-Expected<std::vector<BoundTensor>> allocate_all(const std::vector<TensorDescription>& tensors) {
-  std::vector<BoundTensor> bound;
-  for (const auto& tensor : tensors) {
-    const bool is_fixed = std::all_of(tensor.shape.begin(), tensor.shape.end(),
-                                      [](std::int64_t length) { return length > 0; });
-    if (!tensor.is_float32 || !is_fixed) {
-      return make_error(ExitCode::kUnsupportedModel,
-                        "the tensor " + tensor.to_string() + " of the model has no fixed shape");
-    }
-    const auto count = std::accumulate(tensor.shape.begin(), tensor.shape.end(), std::int64_t{1},
-                                       std::multiplies<>());
-    BoundTensor& added = bound.emplace_back();
-    added.values.resize(static_cast<std::size_t>(count));
-    const auto memory = Ort::MemoryInfo::CreateCpu(OrtDeviceAllocator, OrtMemTypeDefault);
-    added.view = Ort::Value::CreateTensor<float>(memory, added.values.data(), added.values.size(),
-                                                 tensor.shape.data(), tensor.shape.size());
-  }
+Ort::MemoryInfo own_memory() {
+  return Ort::MemoryInfo::CreateCpu(OrtDeviceAllocator, OrtMemTypeDefault);
+}
+
+template <typename T>
+Ort::Value allocate_as(const TensorDescription& tensor, std::vector<T>& values) {
+  const auto count = std::accumulate(tensor.shape.begin(), tensor.shape.end(), std::int64_t{1},
+                                     std::multiplies<>());
+  values.resize(static_cast<std::size_t>(count));
+  return Ort::Value::CreateTensor<T>(own_memory(), values.data(), values.size(),
+                                     tensor.shape.data(), tensor.shape.size());
+}
+
+/// `tensor` has a fixed shape.
+BoundTensor allocate_one(const TensorDescription& tensor) {
+  BoundTensor bound;
+  bound.view = tensor.type == ElementType::kInt64 ? allocate_as(tensor, bound.integers)
+                                                  : allocate_as(tensor, bound.floats);
   return bound;
+}
+
+tl::unexpected<Error> unusable(const TensorDescription& tensor, const std::string& why) {
+  return make_error(ExitCode::kUnsupportedModel, "the tensor " + tensor.to_string() +
+                                                     " of the model " + why + "; export it anew");
+}
+
+TensorView view_of(const Ort::Value& value) {
+  const auto info = value.GetTensorTypeAndShapeInfo();
+  TensorView view{.shape = info.GetShape(), .floats = {}, .integers = {}};
+  const std::size_t count = info.GetElementCount();
+  if (info.GetElementType() == ONNX_TENSOR_ELEMENT_DATA_TYPE_INT64) {
+    view.integers = {value.GetTensorData<std::int64_t>(), count};
+  } else {
+    view.floats = {value.GetTensorData<float>(), count};
+  }
+  return view;
 }
 
 }  // namespace
@@ -124,6 +146,26 @@ struct OnnxModel::Impl {
   Ort::RunOptions run_options;
   std::vector<BoundTensor> inputs;
   std::vector<BoundTensor> outputs;
+  std::vector<Ort::Value> results;  ///< of the last run; those of fixed shape view `outputs`
+  std::vector<TensorView> views;
+
+  void run() {
+    Ort::IoBinding binding(session);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      binding.BindInput(description.inputs[i].name.c_str(), inputs[i].view);
+    }
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      const char* name = description.outputs[i].name.c_str();
+      if (outputs[i].view) {
+        binding.BindOutput(name, outputs[i].view);
+      } else {
+        binding.BindOutput(name, own_memory());
+      }
+    }
+    session.Run(run_options, binding);
+    results = binding.GetOutputValues();
+    for (const Ort::Value& result : results) views.push_back(view_of(result));
+  }
 };
 
 std::vector<std::string> OnnxModelConfig::problems() const {
@@ -152,31 +194,31 @@ Expected<OnnxModel> OnnxModel::load(const OnnxModelConfig& config) {
 const ModelDescription& OnnxModel::description() const { return impl_->description; }
 
 Expected<void> OnnxModel::allocate() {
-  auto inputs = allocate_all(impl_->description.inputs);
-  if (!inputs) return tl::unexpected(inputs.error());
-  auto outputs = allocate_all(impl_->description.outputs);
-  if (!outputs) return tl::unexpected(outputs.error());
-  impl_->inputs = std::move(*inputs);
-  impl_->outputs = std::move(*outputs);
+  std::vector<BoundTensor> inputs;
+  for (const auto& tensor : impl_->description.inputs) {
+    if (tensor.type != ElementType::kFloat32 || !tensor.has_fixed_shape()) {
+      return unusable(tensor, "is not float32 of fixed shape");
+    }
+    inputs.push_back(allocate_one(tensor));
+  }
+  std::vector<BoundTensor> outputs;
+  for (const auto& tensor : impl_->description.outputs) {
+    if (tensor.type == ElementType::kOther) return unusable(tensor, "is of a type not known here");
+    outputs.push_back(tensor.has_fixed_shape() ? allocate_one(tensor) : BoundTensor{});
+  }
+  impl_->inputs = std::move(inputs);
+  impl_->outputs = std::move(outputs);
   return {};
 }
 
-std::span<float> OnnxModel::input(std::size_t index) { return impl_->inputs.at(index).values; }
+std::span<float> OnnxModel::input(std::size_t index) { return impl_->inputs.at(index).floats; }
 
-std::span<const float> OnnxModel::output(std::size_t index) const {
-  return impl_->outputs.at(index).values;
-}
+std::span<const TensorView> OnnxModel::outputs() const { return impl_->views; }
 
 Expected<void> OnnxModel::run() {
+  impl_->views.clear();
   try {
-    Ort::IoBinding binding(impl_->session);
-    for (std::size_t i = 0; i < impl_->inputs.size(); ++i) {
-      binding.BindInput(impl_->description.inputs[i].name.c_str(), impl_->inputs[i].view);
-    }
-    for (std::size_t i = 0; i < impl_->outputs.size(); ++i) {
-      binding.BindOutput(impl_->description.outputs[i].name.c_str(), impl_->outputs[i].view);
-    }
-    impl_->session.Run(impl_->run_options, binding);
+    impl_->run();
     return {};
   } catch (const Ort::Exception& failure) {
     return make_error(ExitCode::kFailure, std::string("the network failed: ") + failure.what());

@@ -36,12 +36,15 @@ class OnnxModel {
 
   [[nodiscard]] const ModelDescription& description() const;
 
-  /// Makes the memory of all tensors. kUnsupportedModel where one is not float32 of fixed shape.
+  /// Makes the memory of all tensors of fixed shape. kUnsupportedModel where an input is not
+  /// float32 of fixed shape, or an output is neither float32 nor int64.
   Expected<void> allocate();
 
-  /// The memory of a tensor; from allocate() on, as long as the model lives.
+  /// The memory of an input; from allocate() on, as long as the model lives.
   [[nodiscard]] std::span<float> input(std::size_t index);
-  [[nodiscard]] std::span<const float> output(std::size_t index) const;
+
+  /// The outputs of the last run(), valid until the next one; none where none succeeded.
+  [[nodiscard]] std::span<const TensorView> outputs() const;
 
   /// Computes the outputs from the inputs. Fails where cancel() was called.
   Expected<void> run();

@@ -45,7 +45,9 @@ TEST(OnnxModel, DescribesAndRunsANetwork) {
   for (const float value : {1.5F, -4.0F}) {
     std::ranges::fill(model->input(0), value);
     ASSERT_TRUE(model->run().has_value());
-    EXPECT_THAT(model->output(0), testing::Each(2 * value));
+    ASSERT_EQ(model->outputs().size(), 1U);
+    EXPECT_THAT(model->outputs()[0].shape, testing::ElementsAre(1, 2, 3));
+    EXPECT_THAT(model->outputs()[0].floats, testing::Each(2 * value));
   }
 }
 

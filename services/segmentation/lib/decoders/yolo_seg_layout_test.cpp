@@ -1,4 +1,4 @@
-#include "services/segmentation/lib/yolo_seg_layout.hpp"
+#include "services/segmentation/lib/decoders/yolo_seg_layout.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,14 +15,16 @@ using testing::HasSubstr;
 ModelDescription small_model() {
   return {.inputs = {{"images", {1, 3, 32, 64}}},
           .outputs = {{"output0", {1, 4 + 2 + 3, 42}}, {"output1", {1, 3, 8, 16}}},
-          .metadata = {{"names", "{0: 'person', 1: 'tv'}"}}};
+          .metadata = {}};
 }
+
+const ClassNames kNames{.names = {"person", "tv"}, .source = "the labels file two.txt"};
 
 void expect_unsupported(const std::function<void(ModelDescription&)>& change,
                         const std::string& said) {
   ModelDescription model = small_model();
   change(model);
-  const auto layout = yolo_seg_layout(model);
+  const auto layout = yolo_seg_layout(model, kNames);
   ASSERT_FALSE(layout.has_value()) << said;
   EXPECT_EQ(layout.error().code, ExitCode::kUnsupportedModel);
   EXPECT_THAT(layout.error().message, HasSubstr(said));
@@ -30,7 +32,7 @@ void expect_unsupported(const std::function<void(ModelDescription&)>& change,
 }
 
 TEST(YoloSegLayout, IsReadFromShapesAndNames) {
-  const auto layout = yolo_seg_layout(small_model());
+  const auto layout = yolo_seg_layout(small_model(), kNames);
   ASSERT_TRUE(layout.has_value()) << layout.error().message;
   EXPECT_EQ(layout->input_size, cv::Size(64, 32));
   EXPECT_EQ(layout->prototype_size, cv::Size(16, 8));
@@ -44,7 +46,7 @@ TEST(YoloSegLayout, RejectsAnInputThatIsNoImage) {
   expect_unsupported([](auto& model) { model.inputs.clear(); }, said);
   expect_unsupported([](auto& model) { model.inputs[0].shape = {1, 3, 32}; }, said);
   expect_unsupported([](auto& model) { model.inputs[0].shape = {1, 1, 32, 64}; }, said);
-  expect_unsupported([](auto& model) { model.inputs[0].is_float32 = false; }, said);
+  expect_unsupported([](auto& model) { model.inputs[0].type = ElementType::kInt64; }, said);
   expect_unsupported([](auto& model) { model.inputs[0].shape = {2, 3, 32, 64}; }, said);
 }
 
@@ -64,9 +66,9 @@ TEST(YoloSegLayout, RejectsOutputsOfAnotherShape) {
       "the outputs are not");
   expect_unsupported(
       [](auto& model) {
-        model.outputs[0].shape = {1, 42, 9};
+        model.outputs[0].shape = {1, 7, 42};
       },
-      "should have 9 numbers per anchor");
+      "has no room for 4 numbers");
   expect_unsupported(
       [](auto& model) {
         model.outputs[1].shape = {1, 3, 16, 32};
@@ -74,31 +76,14 @@ TEST(YoloSegLayout, RejectsOutputsOfAnotherShape) {
       "not a quarter of the input");
 }
 
-TEST(YoloSegLayout, RejectsAModelWithoutClassNames) {
-  expect_unsupported([](auto& model) { model.metadata.clear(); }, "no key `names`");
-}
-
-TEST(ClassNames, MayBeInEitherQuoteAndHoldEscapes) {
-  const auto names = parse_class_names(R"({0: 'hot dog', 1: "driver's \"seat\"", 2:'it\'s'})");
-  ASSERT_TRUE(names.has_value()) << names.error().message;
-  EXPECT_THAT(*names, ElementsAre("hot dog", "driver's \"seat\"", "it's"));
-}
-
-TEST(ClassNames, AreRejectedWhereNotADictionaryInOrder) {
-  for (const char* text : {"", "{", "{}", "person", "{1: 'person'}", "{0: 'a', 2: 'b'}", "{0: 'a'",
-                           "{0: 'a', }", "{0: a}", "{0: 'a}", "{0: ''}", "{x: 'a'}"}) {
-    const auto names = parse_class_names(text);
-    ASSERT_FALSE(names.has_value()) << text;
-    EXPECT_EQ(names.error().code, ExitCode::kUnsupportedModel);
-  }
-}
-
-TEST(ClassNames, AreRejectedWhereAMessageHasNoRoomForThem) {
-  EXPECT_TRUE(parse_class_names("{0: '" + std::string(31, 'a') + "'}").has_value());
-  const auto names = parse_class_names("{0: '" + std::string(32, 'a') + "'}");
-  ASSERT_FALSE(names.has_value());
-  EXPECT_EQ(names.error().code, ExitCode::kUnsupportedModel);
-  EXPECT_THAT(names.error().message, HasSubstr("31 bytes"));
+TEST(YoloSegLayout, RejectsAnotherNumberOfClassNames) {
+  const ClassNames three{
+      {"person", "chair", "tv"}, "the labels file three.txt", ExitCode::kBadData};
+  const auto layout = yolo_seg_layout(small_model(), three);
+  ASSERT_FALSE(layout.has_value());
+  EXPECT_EQ(layout.error().code, ExitCode::kBadData);
+  EXPECT_THAT(layout.error().message,
+              HasSubstr("has 2 classes, but the labels file three.txt names 3"));
 }
 
 }  // namespace

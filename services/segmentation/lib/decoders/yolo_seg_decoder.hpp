@@ -8,18 +8,11 @@
 #include <vector>
 
 #include "common/core/error.hpp"
-#include "common/rgbd/instances.hpp"
+#include "services/segmentation/lib/decoders/yolo_seg_layout.hpp"
+#include "services/segmentation/lib/instance_decoder.hpp"
 #include "services/segmentation/lib/letterbox.hpp"
-#include "services/segmentation/lib/yolo_seg_layout.hpp"
 
 namespace tsg {
-
-struct YoloSegConfig {
-  double score_threshold = 0.25;  // below it COCO networks are wrong more often than right
-  double nms_iou = 0.6;           // two people side by side overlap by less
-
-  [[nodiscard]] std::vector<std::string> problems() const;
-};
 
 /// The outputs of a network for one frame, with the shapes that its layout says.
 struct YoloSegTensors {
@@ -35,15 +28,10 @@ struct YoloSegDetection {
   cv::Rect2f input_box;  ///< pixels of the network's input, may reach beyond it
 };
 
-struct DecodedInstances {
-  std::vector<Instance> instances;  ///< by falling score, boxes in frame pixels
-  int left_out = 0;                 ///< detections beyond kMaxInstances
-};
-
 /// Detections above the score threshold that no better one of the same class covers, by falling
 /// score. kInvalidNumber where the outputs hold NaN or infinity.
 [[nodiscard]] Expected<std::vector<YoloSegDetection>> find_detections(
-    const YoloSegLayout& layout, const YoloSegConfig& config, const YoloSegTensors& tensors);
+    const YoloSegLayout& layout, const DecoderConfig& config, const YoloSegTensors& tensors);
 
 /// Where a network's outputs lie in a frame.
 struct MaskContext {
@@ -55,16 +43,29 @@ struct MaskContext {
 /// Writes `label` into `labels` (CV_8UC1, frame size) wherever the detection's mask is:
 /// sigmoid(coefficients . prototypes), interpolated bilinearly to frame pixels, above one half,
 /// inside its box (whole pixels, both ends included).
-void paint_mask(const MaskContext& context,
-                const YoloSegDetection& detection,
-                std::uint8_t label,
-                cv::Mat& labels);
+void paint_detection(const MaskContext& context,
+                     const YoloSegDetection& detection,
+                     std::uint8_t label,
+                     cv::Mat& labels);
 
-/// Turns the outputs of a network into instances and their label image (CV_8UC1, frame size, made
-/// or reused): where masks overlap, the higher score wins. A mask may be empty or wholly covered;
-/// its instance is kept. At most kMaxInstances, the best.
-[[nodiscard]] Expected<DecodedInstances> decode_yolo_seg(const MaskContext& context,
-                                                         const YoloSegConfig& config,
-                                                         cv::Mat& labels);
+/// Instances of a YOLOv8/11-seg network.
+class YoloSegDecoder final : public InstanceDecoder {
+ public:
+  YoloSegDecoder(YoloSegLayout layout, const DecoderConfig& config);
+
+  [[nodiscard]] std::string layout_name() const override { return "YOLOv8/11-seg"; }
+  [[nodiscard]] const InputFormat& input_format() const override { return format_; }
+  [[nodiscard]] const std::vector<std::string>& class_names() const override {
+    return layout_.class_names;
+  }
+  [[nodiscard]] Expected<DecodedInstances> decode(std::span<const TensorView> outputs,
+                                                  const Letterbox& letterbox,
+                                                  cv::Mat& labels) const override;
+
+ private:
+  YoloSegLayout layout_;
+  DecoderConfig config_;
+  InputFormat format_;
+};
 
 }  // namespace tsg

@@ -2,10 +2,10 @@
 
 #include <opencv2/core/types.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "common/core/error.hpp"
+#include "services/segmentation/lib/decoders/class_names.hpp"
 #include "services/segmentation/lib/model_description.hpp"
 
 namespace tsg {
@@ -18,7 +18,6 @@ inline constexpr int kBoxNumbers = 4;
 ///   first   [1, 4 + C + M, A]      per anchor: centre x, centre y, width, height (input pixels),
 ///                                  C class scores (0..1), M mask coefficients
 ///   second  [1, M, H / 4, W / 4]   mask prototypes
-/// with the C class names in the metadata key `names`.
 struct YoloSegLayout {
   cv::Size input_size;
   cv::Size prototype_size;
@@ -30,11 +29,8 @@ struct YoloSegLayout {
 };
 
 /// The layout of `model`; kUnsupportedModel, saying what differs and how to export, where it is not
-/// that of a YOLO segmentation network.
-[[nodiscard]] Expected<YoloSegLayout> yolo_seg_layout(const ModelDescription& model);
-
-/// Reads class names as exporters write them, a Python dictionary: {0: 'person', 1: "tv"}, with
-/// the keys 0, 1, 2 ... in this order. kUnsupportedModel where it is not.
-[[nodiscard]] Expected<std::vector<std::string>> parse_class_names(std::string_view dictionary);
+/// that of a YOLO segmentation network, and the error of check_class_count().
+[[nodiscard]] Expected<YoloSegLayout> yolo_seg_layout(const ModelDescription& model,
+                                                      const ClassNames& names);
 
 }  // namespace tsg

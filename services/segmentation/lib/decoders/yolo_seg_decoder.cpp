@@ -1,28 +1,18 @@
-#include "services/segmentation/lib/yolo_seg_decoder.hpp"
+#include "services/segmentation/lib/decoders/yolo_seg_decoder.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include "common/core/check.hpp"
+#include "services/segmentation/lib/decoders/finite.hpp"
+#include "services/segmentation/lib/decoders/mask_painter.hpp"
 #include "services/segmentation/lib/linear_tap.hpp"
 
 namespace tsg {
 
 namespace {
-
-/// False where any value is NaN or infinite: those have all bits of the exponent set.
-bool is_all_finite(std::span<const float> values) {
-  constexpr std::uint32_t kExponent = 0x7F800000U;
-  std::uint32_t found = 0;
-  for (const float value : values) {
-    found |=
-        static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(value) & kExponent) == kExponent);
-  }
-  return found == 0;
-}
 
 /// The best class of each anchor. Goes through the tensor row by row, as it lies in memory.
 struct BestClasses {
@@ -103,13 +93,13 @@ cv::Mat_<float> mask_probabilities(const MaskContext& context,
 }
 
 /// Where the frame pixels first, first + 1, ... are sampled among the prototypes.
-std::vector<LinearTap> prototype_taps(
-    int first, int count, double scale, double offset, int length) {
+std::vector<MaskTap> prototype_taps(int first, int count, double scale, double offset, int length) {
   constexpr double kPrototypesPerInputPixel = 0.25;
-  std::vector<LinearTap> taps(static_cast<std::size_t>(count));
+  std::vector<MaskTap> taps(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     const double input = (first + i + 0.5) * scale + offset;
-    taps[static_cast<std::size_t>(i)] = linear_tap(input * kPrototypesPerInputPixel - 0.5, length);
+    taps[static_cast<std::size_t>(i)] =
+        mask_tap(linear_tap(input * kPrototypesPerInputPixel - 0.5, length));
   }
   return taps;
 }
@@ -123,40 +113,21 @@ cv::Rect pixels_of_box(const cv::Rect2f& box, cv::Size frame_size) {
   return {min_x, min_y, end_x - min_x, end_y - min_y};
 }
 
-/// Writes `label` where the interpolation of two mask rows along `columns` is above one half.
-/// `columns` index whole prototype rows; `mask` begins at the first of them.
-void paint_row(std::span<const float> blended,
-               const std::vector<LinearTap>& columns,
-               std::uint8_t label,
-               std::uint8_t* labels) {
-  const int first = columns.front().first;
-  for (std::size_t x = 0; x < columns.size(); ++x) {
-    const LinearTap& tap = columns[x];
-    const float left = blended[static_cast<std::size_t>(tap.first - first)];
-    const float right = blended[static_cast<std::size_t>(tap.second - first)];
-    const float probability = left + (right - left) * tap.weight_of_second;
-    labels[x] = probability > 0.5F ? label : labels[x];
-  }
+/// The prototypes that the sampling takes, which are as many as its taps reach.
+cv::Rect prototypes_of(const MaskSampling& sampling, cv::Size prototypes) {
+  const cv::Point first(sampling.columns.front().first, sampling.rows.front().first);
+  const cv::Point end(std::min(sampling.columns.back().first + 2, prototypes.width),
+                      std::min(sampling.rows.back().first + 2, prototypes.height));
+  return {first, end};
 }
 
 }  // namespace
 
-std::vector<std::string> YoloSegConfig::problems() const {
-  std::vector<std::string> found;
-  if (!(score_threshold > 0.0 && score_threshold < 1.0)) {
-    found.emplace_back("score_threshold must be between 0 and 1");
-  }
-  if (!(nms_iou > 0.0 && nms_iou <= 1.0)) found.emplace_back("nms_iou must be > 0 and at most 1");
-  return found;
-}
-
 Expected<std::vector<YoloSegDetection>> find_detections(const YoloSegLayout& layout,
-                                                        const YoloSegConfig& config,
+                                                        const DecoderConfig& config,
                                                         const YoloSegTensors& tensors) {
-  if (!is_all_finite(tensors.anchors) || !is_all_finite(tensors.prototypes)) {
-    return make_error(ExitCode::kInvalidNumber,
-                      "the network's outputs hold NaN or infinity: the model file is damaged or "
-                      "was exported in too low a precision; export it anew as float32");
+  for (const auto& tensor : {tensors.anchors, tensors.prototypes}) {
+    if (auto finite = check_finite(tensor); !finite) return tl::unexpected(finite.error());
   }
   const BestClasses best = best_classes(layout, tensors.anchors);
   std::vector<YoloSegDetection> candidates;
@@ -172,57 +143,56 @@ Expected<std::vector<YoloSegDetection>> find_detections(const YoloSegLayout& lay
   return without_duplicates(candidates, static_cast<float>(config.nms_iou));
 }
 
-void paint_mask(const MaskContext& context,
-                const YoloSegDetection& detection,
-                std::uint8_t label,
-                cv::Mat& labels) {
+void paint_detection(const MaskContext& context,
+                     const YoloSegDetection& detection,
+                     std::uint8_t label,
+                     cv::Mat& labels) {
   const Letterbox& letterbox = context.letterbox;
   const cv::Size prototypes = context.layout.prototype_size;
   const cv::Rect2f box = letterbox.to_frame(detection.input_box);
   if (box.empty()) return;  // beside the frame
   const cv::Rect pixels = pixels_of_box(box, letterbox.frame_size);
-  const auto columns = prototype_taps(pixels.x, pixels.width, letterbox.scale_x, letterbox.image.x,
-                                      prototypes.width);
-  const auto rows = prototype_taps(pixels.y, pixels.height, letterbox.scale_y, letterbox.image.y,
-                                   prototypes.height);
-  const cv::Rect region(cv::Point(columns.front().first, rows.front().first),
-                        cv::Point(columns.back().second + 1, rows.back().second + 1));
-  const cv::Mat_<float> mask =
-      mask_probabilities(context, coefficients_of(context, detection.anchor), region);
-  std::vector<float> blended(static_cast<std::size_t>(region.width));
-  for (int y = 0; y < pixels.height; ++y) {
-    const LinearTap& tap = rows[static_cast<std::size_t>(y)];
-    const auto* upper = mask.ptr<float>(tap.first - region.y);
-    const auto* lower = mask.ptr<float>(tap.second - region.y);
-    for (std::size_t x = 0; x < blended.size(); ++x) {
-      blended[x] = upper[x] + (lower[x] - upper[x]) * tap.weight_of_second;
-    }
-    paint_row(blended, columns, label, labels.ptr<std::uint8_t>(pixels.y + y) + pixels.x);
-  }
+  const MaskSampling sampling{.pixels = pixels,
+                              .columns = prototype_taps(pixels.x, pixels.width, letterbox.scale_x,
+                                                        letterbox.image.x, prototypes.width),
+                              .rows = prototype_taps(pixels.y, pixels.height, letterbox.scale_y,
+                                                     letterbox.image.y, prototypes.height)};
+  const cv::Rect region = prototypes_of(sampling, prototypes);
+  const MaskPart mask{
+      mask_probabilities(context, coefficients_of(context, detection.anchor), region), region.tl()};
+  paint_mask(mask, sampling, pixels, label, labels);
 }
 
-Expected<DecodedInstances> decode_yolo_seg(const MaskContext& context,
-                                           const YoloSegConfig& config,
-                                           cv::Mat& labels) {
-  auto detections = find_detections(context.layout, config, context.tensors);
+Expected<DecodedInstances> YoloSegDecoder::decode(std::span<const TensorView> outputs,
+                                                  const Letterbox& letterbox,
+                                                  cv::Mat& labels) const {
+  const YoloSegTensors tensors{.anchors = outputs[0].floats, .prototypes = outputs[1].floats};
+  const MaskContext context{layout_, tensors, letterbox};
+  auto detections = find_detections(layout_, config_, tensors);
   if (!detections) return tl::unexpected(detections.error());
   DecodedInstances decoded;
   if (detections->size() > kMaxInstances) {
     decoded.left_out = static_cast<int>(detections->size()) - kMaxInstances;
     detections->resize(kMaxInstances);
   }
-  labels.create(context.letterbox.frame_size, CV_8UC1);
+  labels.create(letterbox.frame_size, CV_8UC1);
   labels.setTo(0);
   for (std::size_t i = detections->size(); i > 0; --i) {  // the best last, on top
-    paint_mask(context, (*detections)[i - 1], static_cast<std::uint8_t>(i), labels);
+    paint_detection(context, (*detections)[i - 1], static_cast<std::uint8_t>(i), labels);
   }
   for (const auto& detection : *detections) {
     decoded.instances.push_back(
-        {.class_name = context.layout.class_names[static_cast<std::size_t>(detection.class_id)],
+        {.class_name = layout_.class_names[static_cast<std::size_t>(detection.class_id)],
          .score = detection.score,
-         .box = context.letterbox.to_frame(detection.input_box)});
+         .box = letterbox.to_frame(detection.input_box)});
   }
   return decoded;
+}
+
+YoloSegDecoder::YoloSegDecoder(YoloSegLayout layout, const DecoderConfig& config)
+    : layout_(std::move(layout)), config_(config) {
+  constexpr float kBorder = 114.0F / 255.0F;  // the grey that these networks are trained with
+  format_ = {.size = layout_.input_size, .border = cv::Vec3f::all(kBorder)};
 }
 
 }  // namespace tsg

@@ -1,4 +1,4 @@
-#include "services/segmentation/lib/yolo_seg_provider.hpp"
+#include "services/segmentation/lib/model_provider.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +12,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "services/segmentation/lib/decoders/yolo_seg_decoder.hpp"
 #include "tests/support/shared_dir.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/tiny_yolo_seg.hpp"
@@ -28,13 +29,13 @@ RgbdFrame frame_of(const cv::Mat& colour) {
   return {.seq = 17, .stamp_ns = 42, .camera = {}, .colour = colour, .depth = {}};
 }
 
-Expected<std::unique_ptr<SegmentationProvider>> make_tiny(const TempFolder& folder,
-                                                          const TinyYoloSeg& network) {
-  return YoloSegProvider::make(
+Expected<std::unique_ptr<ModelProvider>> make_tiny(const TempFolder& folder,
+                                                   const TinyYoloSeg& network) {
+  return ModelProvider::make(
       {.model = {.file = folder.write("tiny.onnx", network.bytes())}, .decoder = {}});
 }
 
-TEST(YoloSegProvider, AnswersWithTheFramesSeqStampAndSize) {
+TEST(ModelProvider, AnswersWithTheFramesSeqStampAndSize) {
   const TempFolder folder;
   auto provider = make_tiny(folder, {});
   ASSERT_TRUE(provider.has_value()) << provider.error().message;
@@ -55,7 +56,7 @@ TEST(YoloSegProvider, AnswersWithTheFramesSeqStampAndSize) {
   }
 }
 
-TEST(YoloSegProvider, WithholdsTheMaskWhereTheNetworkGivesNaN) {
+TEST(ModelProvider, WithholdsTheMaskWhereTheNetworkGivesNaN) {
   const TempFolder folder;
   auto provider = make_tiny(folder, {.score = std::numeric_limits<float>::quiet_NaN()});
   ASSERT_TRUE(provider.has_value()) << provider.error().message;
@@ -65,17 +66,17 @@ TEST(YoloSegProvider, WithholdsTheMaskWhereTheNetworkGivesNaN) {
   EXPECT_EQ(result.error().code, ExitCode::kInvalidNumber);
 }
 
-TEST(YoloSegProvider, NamesTheFileOfANetworkOfAnotherLayout) {
+TEST(ModelProvider, NamesTheFileOfANetworkOfAnotherLayout) {
   OnnxWriter classifier;
   classifier.add_input("image", {1, 3, 32, 64});
   classifier.add_output("classes", {1, 3, 32, 64});
   classifier.add_node("Identity", {"image"}, "classes");
   const TempFolder folder;
-  const auto provider = YoloSegProvider::make(
+  const auto provider = ModelProvider::make(
       {.model = {.file = folder.write("classifier.onnx", classifier.bytes())}, .decoder = {}});
   ASSERT_FALSE(provider.has_value());
   EXPECT_EQ(provider.error().code, ExitCode::kUnsupportedModel);
-  EXPECT_THAT(provider.error().message, HasSubstr("classifier.onnx: the outputs are not"));
+  EXPECT_THAT(provider.error().message, HasSubstr("classifier.onnx: the outputs are of no layout"));
 }
 
 // On a real network and real images, against what its own makers' tools find.
@@ -112,7 +113,7 @@ void expect_same_detection(const nlohmann::json& expected,
 }
 
 TEST_F(YoloV8n, FindsWhatItsMakersToolsFind) {
-  auto provider = YoloSegProvider::make({.model = {.file = model_file()}, .decoder = {}});
+  auto provider = ModelProvider::make({.model = {.file = model_file()}, .decoder = {}});
   ASSERT_TRUE(provider.has_value()) << provider.error().message;
   for (const auto& [name, frame] : expected_["frames"].items()) {
     SCOPED_TRACE(name);
@@ -133,21 +134,24 @@ TEST_F(YoloV8n, FindsWhatItsMakersToolsFind) {
 TEST_F(YoloV8n, GivesMasksOfTheSameArea) {
   auto model = OnnxModel::load({.file = model_file()});
   ASSERT_TRUE(model.has_value()) << model.error().message;
-  const auto layout = yolo_seg_layout(model->description());
+  const auto names = class_names_of(model->description());
+  ASSERT_TRUE(names.has_value()) << names.error().message;
+  const auto layout = yolo_seg_layout(model->description(), *names);
   ASSERT_TRUE(layout.has_value()) << layout.error().message;
   ASSERT_TRUE(model->allocate().has_value());
   const Letterbox letterbox = make_letterbox({640, 480}, layout->input_size);
   for (const auto& [name, frame] : expected_["frames"].items()) {
     SCOPED_TRACE(name);
-    InputTensorWriter(letterbox).write(cv::imread(frames_folder() / name), model->input(0));
+    InputTensorWriter({640, 480}, {.size = layout->input_size})
+        .write(cv::imread(frames_folder() / name), model->input(0));
     ASSERT_TRUE(model->run().has_value());
-    const YoloSegTensors tensors{model->output(0), model->output(1)};
+    const YoloSegTensors tensors{model->outputs()[0].floats, model->outputs()[1].floats};
     const auto detections = find_detections(*layout, {}, tensors);
     ASSERT_TRUE(detections.has_value());
     ASSERT_EQ(detections->size(), frame["detections"].size());
     for (std::size_t i = 0; i < detections->size(); ++i) {
       cv::Mat mask(480, 640, CV_8UC1, cv::Scalar(0));
-      paint_mask({*layout, tensors, letterbox}, (*detections)[i], 1, mask);
+      paint_detection({*layout, tensors, letterbox}, (*detections)[i], 1, mask);
       const double area = frame["detections"][i]["mask_area"].get<double>();
       EXPECT_NEAR(cv::countNonZero(mask), area, std::max(0.005 * area, 5.0)) << "instance " << i;
     }

@@ -1,4 +1,4 @@
-#include "services/segmentation/lib/yolo_seg_decoder.hpp"
+#include "services/segmentation/lib/decoders/yolo_seg_decoder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -62,13 +62,23 @@ struct Decoded {
   cv::Mat labels;
 };
 
+Expected<DecodedInstances> decode_tensors(const YoloSegLayout& layout,
+                                          const YoloSegTensors& tensors,
+                                          const Letterbox& letterbox,
+                                          const DecoderConfig& config,
+                                          cv::Mat& labels) {
+  const std::vector<TensorView> outputs{{.floats = tensors.anchors},
+                                        {.floats = tensors.prototypes}};
+  return YoloSegDecoder(layout, config).decode(outputs, letterbox, labels);
+}
+
 Decoded decode(const Network& network,
-               const YoloSegConfig& config = {},
+               const DecoderConfig& config = {},
                cv::Size frame_size = {64, 32}) {
   const Letterbox letterbox = make_letterbox(frame_size, network.layout.input_size);
   const YoloSegTensors tensors = network.tensors();
   Decoded decoded;
-  auto result = decode_yolo_seg({network.layout, tensors, letterbox}, config, decoded.labels);
+  auto result = decode_tensors(network.layout, tensors, letterbox, config, decoded.labels);
   EXPECT_TRUE(result.has_value());
   if (result) decoded.instances = std::move(*result);
   return decoded;
@@ -154,7 +164,7 @@ struct Reference {
 
 void expect_equals_reference(unsigned seed, cv::Size frame_size) {
   const Network network = random_network(seed);
-  const YoloSegConfig config{.score_threshold = 0.3, .nms_iou = 0.5};
+  const DecoderConfig config{.score_threshold = 0.3, .nms_iou = 0.5};
   const Decoded decoded = decode(network, config, frame_size);
   const YoloSegTensors tensors = network.tensors();
   const auto detections = find_detections(network.layout, config, tensors);
@@ -238,8 +248,8 @@ TEST(YoloSegDecoder, KeepsTheBestOfMoreInstancesThanTheMessageHolds) {
   }
   const YoloSegTensors tensors{anchors, network.tensors().prototypes};
   cv::Mat labels;
-  const auto decoded = decode_yolo_seg(
-      {layout, tensors, make_letterbox({64, 32}, layout.input_size)}, YoloSegConfig{}, labels);
+  const auto decoded = decode_tensors(layout, tensors, make_letterbox({64, 32}, layout.input_size),
+                                      DecoderConfig{}, labels);
   ASSERT_TRUE(decoded.has_value());
   EXPECT_EQ(decoded->instances.size(), static_cast<std::size_t>(kMaxInstances));
   EXPECT_EQ(decoded->left_out, many - kMaxInstances);
@@ -253,7 +263,7 @@ TEST(YoloSegDecoder, EmptiesAReusedLabelImage) {
   const YoloSegTensors tensors = nothing_found.tensors();
   const Letterbox letterbox = make_letterbox({64, 32}, {64, 32});
   const auto decoded =
-      decode_yolo_seg({nothing_found.layout, tensors, letterbox}, YoloSegConfig{}, labels);
+      decode_tensors(nothing_found.layout, tensors, letterbox, DecoderConfig{}, labels);
   ASSERT_TRUE(decoded.has_value());
   EXPECT_TRUE(decoded->instances.empty());
   EXPECT_EQ(cv::countNonZero(labels), 0);
@@ -288,10 +298,10 @@ TEST(YoloSegDecoder, IgnoresBoxesOutsideTheFrameOrWithoutArea) {
   EXPECT_EQ(cv::countNonZero(decoded.labels), 0);
 }
 
-TEST(YoloSegConfig, NamesWhatIsOutOfRange) {
-  EXPECT_TRUE(YoloSegConfig{}.problems().empty());
-  EXPECT_EQ((YoloSegConfig{.score_threshold = 1.5, .nms_iou = 0.0}).problems().size(), 2U);
-  EXPECT_EQ((YoloSegConfig{.score_threshold = std::nan(""), .nms_iou = 0.5}).problems().size(), 1U);
+TEST(DecoderConfig, NamesWhatIsOutOfRange) {
+  EXPECT_TRUE(DecoderConfig{}.problems().empty());
+  EXPECT_EQ((DecoderConfig{.score_threshold = 1.5, .nms_iou = 0.0}).problems().size(), 2U);
+  EXPECT_EQ((DecoderConfig{.score_threshold = std::nan(""), .nms_iou = 0.5}).problems().size(), 1U);
 }
 
 }  // namespace
