@@ -15,18 +15,22 @@ class OnnxWriter {
   using Shape = std::vector<std::int64_t>;
 
   void add_input(std::string_view name, const Shape& shape) {
-    graph_ += field(11, value_info(name, shape));
+    graph_ += field(11, value_info(name, shape, kFloat));
   }
-  void add_output(std::string_view name, const Shape& shape) {
-    graph_ += field(12, value_info(name, shape));
+  /// Of float32, else of int64.
+  void add_output(std::string_view name, const Shape& shape, bool is_integer = false) {
+    graph_ += field(12, value_info(name, shape, is_integer ? kInteger : kFloat));
   }
-  /// A float32 tensor that nodes take as input.
+  /// A tensor that nodes take as input.
   void add_constant(std::string_view name, const Shape& shape, std::span<const float> values) {
-    std::string tensor;
-    for (const std::int64_t length : shape) tensor += field(1, length);
-    tensor += field(2, kFloat) + field(8, name);
-    tensor += field(9, {reinterpret_cast<const char*>(values.data()), values.size_bytes()});
-    graph_ += field(5, tensor);
+    add_tensor(name, shape, kFloat,
+               {reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+  }
+  void add_constant(std::string_view name,
+                    const Shape& shape,
+                    std::span<const std::int64_t> values) {
+    add_tensor(name, shape, kInteger,
+               {reinterpret_cast<const char*>(values.data()), values.size_bytes()});
   }
   void add_node(std::string_view operation,
                 const std::vector<std::string>& inputs,
@@ -49,6 +53,16 @@ class OnnxWriter {
 
  private:
   static constexpr std::int64_t kFloat = 1;
+  static constexpr std::int64_t kInteger = 7;
+
+  void add_tensor(std::string_view name,
+                  const Shape& shape,
+                  std::int64_t type,
+                  std::string_view bytes) {
+    std::string tensor;
+    for (const std::int64_t length : shape) tensor += field(1, length);
+    graph_ += field(5, tensor + field(2, type) + field(8, name) + field(9, bytes));
+  }
 
   static std::string varint(std::uint64_t value) {
     std::string bytes;
@@ -64,19 +78,24 @@ class OnnxWriter {
   static std::string field(std::uint32_t number, std::string_view content) {
     return varint((number << 3U) | 2U) + varint(content.size()) + std::string(content);
   }
-  static std::string value_info(std::string_view name, const Shape& shape) {
+  static std::string value_info(std::string_view name, const Shape& shape, std::int64_t type) {
     std::string dimensions;
     for (const std::int64_t length : shape) {  // none given where the size is not fixed
       dimensions += field(1, length > 0 ? field(1, length) : std::string());
     }
-    const std::string tensor_type = field(1, kFloat) + field(2, dimensions);
+    const std::string tensor_type = field(1, type) + field(2, dimensions);
     return field(1, name) + field(2, field(1, tensor_type));
   }
-  /// ReduceMax shall give a number, not a tensor of the input's rank.
+  /// ReduceMax shall give a number, not a tensor of the input's rank; Compress works along
+  /// dimension 1.
   static std::string attributes_of(std::string_view operation) {
-    constexpr std::int64_t kInteger = 2;
-    if (operation != "ReduceMax") return {};
-    return field(5, field(1, "keepdims") + field(3, std::int64_t{0}) + field(20, kInteger));
+    if (operation == "ReduceMax") return attribute("keepdims", 0);
+    if (operation == "Compress") return attribute("axis", 1);
+    return {};
+  }
+  static std::string attribute(std::string_view name, std::int64_t value) {
+    constexpr std::int64_t kInt = 2;
+    return field(5, field(1, name) + field(3, value) + field(20, kInt));
   }
 
   std::string graph_;
