@@ -13,6 +13,7 @@
 #include "services/tsgctl/eval_tum_command.hpp"
 #include "services/tsgctl/hz_command.hpp"
 #include "services/tsgctl/map_command.hpp"
+#include "services/tsgctl/model_command.hpp"
 #include "services/tsgctl/report_command.hpp"
 #include "services/tsgctl/run_command.hpp"
 #include "services/tsgctl/simulate_command.hpp"
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
   });
   tsg::add_run_command(app);
   tsg::add_map_command(app);
+  tsg::add_model_command(app);
   tsg::add_eval_dynamic_command(tsg::add_eval_command(app));
   tsg::add_eval_tum_command(app);
   tsg::add_bench_command(app);

@@ -61,7 +61,7 @@ TEST(OnnxModel, DoesNotRunOnceCancelled) {
   EXPECT_THAT(ran.error().message, HasSubstr("the network failed"));
 }
 
-TEST(OnnxModel, HasNoMemoryForTensorsOfNoFixedShape) {
+TEST(OnnxModel, HasNoMemoryForAnInputOfNoFixedShape) {
   OnnxWriter writer;
   writer.add_input("in", {1, -1});
   writer.add_output("out", {1, -1});
@@ -73,6 +73,48 @@ TEST(OnnxModel, HasNoMemoryForTensorsOfNoFixedShape) {
   ASSERT_FALSE(allocated.has_value());
   EXPECT_EQ(allocated.error().code, ExitCode::kUnsupportedModel);
   EXPECT_THAT(allocated.error().message, HasSubstr("in float32 [1,?]"));
+}
+
+TEST(OnnxModel, GivesOutputsWhoseShapeShowsOnlyInARun) {
+  OnnxWriter writer;  // of the 4 numbers those above zero
+  const std::vector<float> zero{0.0F};
+  writer.add_input("in", {4});
+  writer.add_output("out", {1, -1});
+  writer.add_constant("zero", {}, std::span(zero));
+  const std::vector<float> numbers{1.0F, 2.0F, 3.0F, 4.0F};
+  writer.add_constant("numbers", {1, 4}, std::span(numbers));
+  writer.add_node("Greater", {"in", "zero"}, "chosen");
+  writer.add_node("Compress", {"numbers", "chosen"}, "out");
+  const TempFolder folder;
+  auto model = OnnxModel::load({.file = folder.write("choose.onnx", writer.bytes())});
+  ASSERT_TRUE(model.has_value()) << model.error().message;
+  EXPECT_EQ(model->description().outputs.at(0).to_string(), "out float32 [1,?]");
+  ASSERT_TRUE(model->allocate().has_value());
+  for (const int chosen : {3, 0, 1}) {
+    for (int i = 0; i < 4; ++i) {
+      model->input(0)[static_cast<std::size_t>(i)] = i < chosen ? 1.0F : -1.0F;
+    }
+    ASSERT_TRUE(model->run().has_value());
+    ASSERT_EQ(model->outputs().size(), 1U);
+    EXPECT_THAT(model->outputs()[0].shape, testing::ElementsAre(1, chosen));
+    EXPECT_EQ(model->outputs()[0].floats.size(), static_cast<std::size_t>(chosen));
+  }
+}
+
+TEST(OnnxModel, GivesWholeNumbers) {
+  OnnxWriter writer;
+  const std::vector<std::int64_t> labels{3, -1, std::int64_t{1} << 40U};
+  writer.add_input("in", {1, 2});
+  writer.add_output("out", {1, 3}, /*is_integer=*/true);
+  writer.add_constant("labels", {1, 3}, std::span(labels));
+  writer.add_node("Identity", {"labels"}, "out");
+  const TempFolder folder;
+  auto model = OnnxModel::load({.file = folder.write("labels.onnx", writer.bytes())});
+  ASSERT_TRUE(model.has_value()) << model.error().message;
+  EXPECT_EQ(model->description().outputs.at(0).to_string(), "out int64 [1,3]");
+  ASSERT_TRUE(model->allocate().has_value());
+  ASSERT_TRUE(model->run().has_value());
+  EXPECT_THAT(model->outputs()[0].integers, testing::ElementsAreArray(labels));
 }
 
 TEST(OnnxModel, NamesAMissingFileAndTheKeyToSet) {
