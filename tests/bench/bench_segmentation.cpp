@@ -95,9 +95,9 @@ void segmentation_postprocess(benchmark::State& state) {
 }
 BENCHMARK(segmentation_postprocess)->Unit(benchmark::kMillisecond);
 
-/// A light SOLOv2 of COCO for CPUs: 80 classes, kernels of 128, 320 x 256 pixels; ten objects, each
-/// seen by three cells, which makes some 30 candidates; `noise` 1 adds 800 that are none. The frame
-/// is VGA.
+/// A light SOLOv2 of COCO for CPUs: 80 classes, kernels of 128, 320 x 256 pixels; eight objects,
+/// each seen by four cells, which makes some 30 candidates; `noise` 1 adds 800 that are none. The
+/// frame is VGA.
 void segmentation_solov2_postprocess(benchmark::State& state) {
   std::mt19937 random(1);
   const test::MadeSolov2 made{.input_size = {320, 256},
@@ -105,7 +105,7 @@ void segmentation_solov2_postprocess(benchmark::State& state) {
                               .kernel_length = 128,
                               .is_merged = state.range(0) != 0,
                               .noise = state.range(1) != 0 ? 1.0F : 0.5F};
-  const auto network = made.network(test::random_objects(10, made.classes, random), random);
+  const auto network = made.network(test::random_objects(8, made.classes, random), random);
   const ClassNames names{network.class_names(), "the benchmark"};
   const auto decoder = value_or_throw(make_decoder(network.description(), {}, names));
   const InputFormat& format = decoder->input_format();

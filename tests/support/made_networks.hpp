@@ -68,6 +68,7 @@ struct MadeSolov2 {
       put(cells, {level, 0}, objects[i], i);
       if (noise == 0.0F) continue;
       put(cells, {level, -1}, objects[i], i);
+      put(cells, {level, 1}, objects[i], i);
       put(cells, {(level + 1) % grids.size(), 0}, objects[i], i);
     }
     MadeNetwork made{.input_size = input_size, .classes = classes};
