@@ -75,6 +75,20 @@ TEST(SegmentationStart, RejectsANetworkOfAnotherLayoutAndSaysWhichIsKnown) {
                      {"classifier.onnx", "classes float32 [1,3,32,64]", "YOLOv8/11"});
 }
 
+TEST(SegmentationStart, RejectsLabelsThatAreNotThereOrNotThoseOfTheNetwork) {
+  const TempFolder folder;
+  const auto with_labels = [&](const std::string& labels) {
+    std::vector<std::string> overrides =
+        with_model(folder.write("tiny.onnx", TinyYoloSeg{}.bytes()));
+    overrides.push_back("segmentation.model.labels=" + labels);
+    return overrides;
+  };
+  expect_start_error(with_labels("/nowhere/coco.txt"), ExitCode::kMissingInput,
+                     {"/nowhere/coco.txt", "segmentation.model.labels"});
+  expect_start_error(with_labels(folder.write("three.txt", "person\nchair\ntv\n")),
+                     ExitCode::kBadData, {"has 2 classes", "three.txt names 3"});
+}
+
 TEST(SegmentationStart, SaysHowToGetTheRuntimeWhereItIsMissing) {
   const TempFolder folder;
   std::vector<std::string> overrides = with_model(folder.write("tiny.onnx", TinyYoloSeg{}.bytes()));

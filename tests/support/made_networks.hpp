@@ -41,6 +41,7 @@ inline void draw_logits(const MadeObject& object, cv::Size size, float* logits) 
 inline std::vector<MadeObject> random_objects(int count, int classes, std::mt19937& random) {
   std::uniform_real_distribution<float> unit(0.0F, 1.0F);
   std::vector<MadeObject> objects;
+  objects.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     objects.push_back({.class_id = static_cast<int>(unit(random) * static_cast<float>(classes)),
                        .score = 0.4F + 0.55F * unit(random),

@@ -60,6 +60,7 @@ struct MadeNetwork {
   /// "class 0", "class 1", ...
   [[nodiscard]] std::vector<std::string> class_names() const {
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(classes));
     for (int i = 0; i < classes; ++i) names.push_back("class " + std::to_string(i));
     return names;
   }

@@ -40,9 +40,7 @@ Expected<Outputs> checked_outputs(const RtmdetLayout& layout, std::span<const Te
                           std::to_string(mask_size) +
                           " each, the input's size); export it with masks of the input's size");
   }
-  for (const auto& numbers : {checked.boxes, checked.masks}) {
-    if (auto finite = check_finite(numbers); !finite) return tl::unexpected(finite.error());
-  }
+  if (auto finite = check_finite(checked.boxes); !finite) return tl::unexpected(finite.error());
   return checked;
 }
 
@@ -77,11 +75,31 @@ cv::Rect2f box_of(std::span<const float> boxes, std::size_t index) {
   return {cv::Point2f(box[0], box[1]), cv::Point2f(box[2], box[3])};
 }
 
+/// The masks of `detections`. Others are not looked at: networks that always give a hundred
+/// detections, most of them empty, have masks of 160 MB at 640 x 640.
+Expected<std::vector<std::span<const float>>> masks_of(std::span<const Detection> detections,
+                                                       std::span<const float> masks,
+                                                       std::size_t mask_length) {
+  std::vector<std::span<const float>> chosen;
+  for (const Detection& detection : detections) {
+    chosen.push_back(masks.subspan(detection.index * mask_length, mask_length));
+    if (auto finite = check_finite(chosen.back()); !finite) return tl::unexpected(finite.error());
+  }
+  return chosen;
+}
+
+bool are_logits(std::span<const std::span<const float>> masks) {
+  return std::any_of(masks.begin(), masks.end(), [](std::span<const float> mask) {
+    const auto [least, most] = std::minmax_element(mask.begin(), mask.end());
+    return *least < 0.0F || *most > 1.0F;
+  });
+}
+
 /// A mask of probabilities from one of these or of logits.
-cv::Mat_<float> probabilities(cv::Size size, std::span<const float> mask, bool are_logits) {
+cv::Mat_<float> probabilities(cv::Size size, std::span<const float> mask, bool of_logits) {
   cv::Mat_<float> made(size);
   const auto probability = [&](float value) {
-    return are_logits ? 1.0F / (1.0F + std::exp(-value)) : value;
+    return of_logits ? 1.0F / (1.0F + std::exp(-value)) : value;
   };
   std::transform(mask.begin(), mask.end(), made.begin(), probability);
   return made;
@@ -115,15 +133,15 @@ Expected<DecodedInstances> RtmdetDecoder::decode(std::span<const TensorView> out
     decoded.left_out = static_cast<int>(detections.size()) - kMaxInstances;
     detections.resize(kMaxInstances);
   }
+  const auto masks =
+      masks_of(detections, found->masks, static_cast<std::size_t>(layout_.input_size.area()));
+  if (!masks) return tl::unexpected(masks.error());
   labels.create(letterbox.frame_size, CV_8UC1);
   labels.setTo(0);
-  const bool are_logits = std::any_of(found->masks.begin(), found->masks.end(),
-                                      [](float value) { return value < 0.0F || value > 1.0F; });
-  const auto samples = static_cast<std::size_t>(layout_.input_size.area());
+  const bool of_logits = are_logits(*masks);
   const MaskSampling sampling = sample_whole_frame(letterbox, 1, layout_.input_size);
   for (std::size_t i = detections.size(); i > 0; --i) {  // the best last, on top
-    const auto mask = found->masks.subspan(detections[i - 1].index * samples, samples);
-    paint_mask(probabilities(layout_.input_size, mask, are_logits), sampling,
+    paint_mask(probabilities(layout_.input_size, (*masks)[i - 1], of_logits), sampling,
                static_cast<std::uint8_t>(i), labels);
   }
   for (const Detection& detection : detections) {

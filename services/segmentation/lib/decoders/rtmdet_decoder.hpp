@@ -10,7 +10,8 @@
 
 namespace tsg {
 
-/// Instances of an RTMDet-Ins network. Masks with a number outside 0..1 are taken for logits.
+/// Instances of an RTMDet-Ins network. Where a mask of those that are found has a number outside
+/// 0..1, all are taken for logits.
 class RtmdetDecoder final : public InstanceDecoder {
  public:
   RtmdetDecoder(RtmdetLayout layout, const DecoderConfig& config);

@@ -62,8 +62,10 @@ TEST(RtmdetDecoder, PutsTheHigherScoreOnTopAndDropsTheUnsure) {
 }
 
 TEST(RtmdetDecoder, KeepsTheBestOfMoreInstancesThanAMessageHolds) {
-  std::vector<MadeObject> objects;
-  for (int i = 0; i < 70; ++i) objects.push_back({.score = 0.3F + 0.01F * static_cast<float>(i)});
+  std::vector<MadeObject> objects(70);
+  for (int i = 0; i < 70; ++i) {
+    objects[static_cast<std::size_t>(i)].score = 0.3F + 0.01F * static_cast<float>(i);
+  }
   cv::Mat labels;
   const auto found = decode(network_of(objects), labels);
   ASSERT_TRUE(found.has_value());

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
-#include <utility>
 
 namespace tsg {
 
@@ -19,11 +19,29 @@ bool is_peak(const Solov2Level& level, int cell, int class_id) {
   const float own = sigmoid(level.category(cell, class_id));
   const int x = cell % level.size;
   const int y = cell / level.size;
-  for (const auto& [left, up] : {std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
-    if (x < left || y < up) continue;
-    if (sigmoid(level.category(cell - left - up * level.size, class_id)) > own) return false;
-  }
-  return true;
+  const auto is_better = [&](int left, int up) {
+    if (x < left || y < up) return false;
+    return sigmoid(level.category(cell - left - up * level.size, class_id)) > own;
+  };
+  return !is_better(1, 0) && !is_better(0, 1) && !is_better(1, 1);
+}
+
+/// The score of a class of a cell, if it is a candidate.
+using ScoreOf = std::optional<float> (*)(const Solov2Level& level, int cell, int class_id);
+
+std::optional<float> score_of_raw(const Solov2Level& level, int cell, int class_id) {
+  // Below it no sigmoid is above kMinScore, whatever rounding does: saves an exponential for each.
+  constexpr float kMinLogit = -2.198F;  // log(0.1 / 0.9) = -2.1972
+  const float logit = level.category(cell, class_id);
+  if (!(logit > kMinLogit)) return std::nullopt;
+  const float score = sigmoid(logit);
+  if (!(score > kMinScore) || !is_peak(level, cell, class_id)) return std::nullopt;
+  return score;
+}
+
+std::optional<float> score_of_merged(const Solov2Level& level, int cell, int class_id) {
+  const float score = level.category(cell, class_id);
+  return score > kMinScore ? std::optional(score) : std::nullopt;
 }
 
 }  // namespace
@@ -50,20 +68,16 @@ std::vector<Solov2Level> solov2_levels(const Solov2Layout& layout,
 
 std::vector<Solov2Candidate> find_candidates(const Solov2Layout& layout,
                                              std::span<const Solov2Level> levels) {
-  // Below it no sigmoid is above kMinScore, whatever rounding does: saves an exponential for each.
-  const float min_raw = std::log(kMinScore / (1.0F - kMinScore)) - 1e-3F;
+  const ScoreOf score_of = layout.is_merged ? score_of_merged : score_of_raw;
   std::vector<Solov2Candidate> found;
   for (int i = 0; i < static_cast<int>(levels.size()); ++i) {
     const Solov2Level& level = levels[static_cast<std::size_t>(i)];
-    for (int class_id = 0; class_id < layout.classes(); ++class_id) {
-      for (int cell = 0; cell < level.size * level.size; ++cell) {
-        const float value = level.category(cell, class_id);
-        if (!(value > (layout.is_merged ? kMinScore : min_raw))) continue;
-        const float score = layout.is_merged ? value : sigmoid(value);
-        if (!(score > kMinScore)) continue;
-        if (!layout.is_merged && !is_peak(level, cell, class_id)) continue;
-        found.push_back({i, cell, class_id, score});
-      }
+    const int cells = level.size * level.size;
+    for (int number = 0; number < layout.classes() * cells; ++number) {
+      const int class_id = number / cells;  // class by class, as raw outputs lie in memory
+      const int cell = number % cells;
+      const auto score = score_of(level, cell, class_id);
+      if (score) found.push_back({i, cell, class_id, *score});
     }
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {

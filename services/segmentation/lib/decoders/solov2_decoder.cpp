@@ -128,6 +128,7 @@ std::vector<Detection> detections_before_nms(std::span<const Solov2Candidate> ca
 
 std::vector<Detection> after_nms(std::vector<Detection> detections, float score_threshold) {
   std::vector<ClassMask> masks;
+  masks.reserve(detections.size());
   for (const Detection& detection : detections) {
     masks.push_back({&detection.mask->bits, detection.class_id});
   }
@@ -148,6 +149,7 @@ std::vector<cv::Rect> paint(std::span<const Detection> detections,
                             const Letterbox& letterbox,
                             cv::Mat& labels) {
   std::vector<const CellMask*> cells;
+  cells.reserve(detections.size());
   for (const Detection& detection : detections) cells.push_back(detection.mask);
   Matrix probabilities = maker.logits(cells);
   probabilities = probabilities.unaryExpr([](float logit) { return sigmoid(logit); });

@@ -101,10 +101,11 @@ TEST(Solov2Decoder, DropsWhatIsBelowTheThresholdOrTooSmallForItsGrid) {
 
 TEST(Solov2Decoder, KeepsTheBestOfMoreInstancesThanAMessageHolds) {
   std::vector<MadeObject> objects;
+  objects.reserve(80);
   for (int i = 0; i < 80; ++i) {
+    const int row = i / 10;
     const float x = (static_cast<float>(i % 10) + 0.5F) / 10.0F;
-    const float y =
-        (static_cast<float>(i / 10) + 0.5F) / 8.0F;  // NOLINT(bugprone-integer-division)
+    const float y = (static_cast<float>(row) + 0.5F) / 8.0F;
     objects.push_back(
         {.score = 0.5F + 0.005F * static_cast<float>(i), .centre = {x, y}, .radii = {0.08F, 0.1F}});
   }
@@ -150,12 +151,13 @@ TEST(Solov2Decoder, IsShownRgbNormalisedAtTheTopLeftWithZerosBeside) {
   const ClassNames names{network.class_names(), "the test"};
   const Solov2Decoder decoder(value_or_throw(solov2_layout(network.description(), names)), {});
   const cv::Mat red(64, 160, CV_8UC3, cv::Scalar(0, 0, 255));
-  std::vector<float> tensor(static_cast<std::size_t>(3 * 160 * 128));
+  constexpr std::size_t kPlane = std::size_t{160} * 128;
+  std::vector<float> tensor(3 * kPlane);
   InputTensorWriter(red.size(), decoder.input_format()).write(red, tensor);
   EXPECT_NEAR(tensor[0], (255 - 123.675) / 58.395, 1e-5);
-  EXPECT_NEAR(tensor[160 * 128], -116.28 / 57.12, 1e-5);
-  EXPECT_NEAR(tensor[2 * 160 * 128], -103.53 / 57.375, 1e-5);
-  EXPECT_EQ(tensor[160 * 64], 0.0F);  // below the frame
+  EXPECT_NEAR(tensor[kPlane], -116.28 / 57.12, 1e-5);
+  EXPECT_NEAR(tensor[2 * kPlane], -103.53 / 57.375, 1e-5);
+  EXPECT_EQ(tensor[kPlane / 2], 0.0F);  // below the frame
 }
 
 }  // namespace
