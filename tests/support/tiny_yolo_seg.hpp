@@ -37,11 +37,11 @@ struct TinyYoloSeg {
   }
 
  private:
-  static constexpr int kNumbers = 4 + 2 + 1;
-  static constexpr int kAnchors = 3;
+  static constexpr std::size_t kNumbers = 4 + 2 + 1;
+  static constexpr std::size_t kAnchors = 3;
 
   [[nodiscard]] std::vector<float> anchors(std::int64_t width, std::int64_t height) const {
-    std::vector<float> numbers(static_cast<std::size_t>(kNumbers * kAnchors), 0.0F);
+    std::vector<float> numbers(kNumbers * kAnchors, 0.0F);
     const auto w = static_cast<float>(width);
     const auto h = static_cast<float>(height);
     numbers[0] = w / 4;  // centre x of the first anchor, and so on

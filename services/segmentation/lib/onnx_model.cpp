@@ -156,7 +156,7 @@ struct OnnxModel::Impl {
     }
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       const char* name = description.outputs[i].name.c_str();
-      if (outputs[i].view) {
+      if (outputs[i].view != nullptr) {
         binding.BindOutput(name, outputs[i].view);
       } else {
         binding.BindOutput(name, own_memory());

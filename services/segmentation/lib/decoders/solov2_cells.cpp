@@ -26,9 +26,7 @@ bool is_peak(const Solov2Level& level, int cell, int class_id) {
   return !is_better(1, 0) && !is_better(0, 1) && !is_better(1, 1);
 }
 
-/// The score of a class of a cell, if it is a candidate.
-using ScoreOf = std::optional<float> (*)(const Solov2Level& level, int cell, int class_id);
-
+/// The score of a class of a cell of raw outputs, if it is a candidate.
 std::optional<float> score_of_raw(const Solov2Level& level, int cell, int class_id) {
   // Below it no sigmoid is above kMinScore, whatever rounding does: saves an exponential for each.
   constexpr float kMinLogit = -2.198F;  // log(0.1 / 0.9) = -2.1972
@@ -39,9 +37,28 @@ std::optional<float> score_of_raw(const Solov2Level& level, int cell, int class_
   return score;
 }
 
+/// The same of merged outputs.
 std::optional<float> score_of_merged(const Solov2Level& level, int cell, int class_id) {
   const float score = level.category(cell, class_id);
   return score > kMinScore ? std::optional(score) : std::nullopt;
+}
+
+/// Those of one level, class by class, as raw outputs lie in memory. A template, since most of the
+/// time goes into looking at the hundreds of thousands that are none.
+template <bool kIsMerged>
+void add_candidates(std::span<const Solov2Level> levels,
+                    int index,
+                    int classes,
+                    std::vector<Solov2Candidate>& found) {
+  const Solov2Level& level = levels[static_cast<std::size_t>(index)];
+  const int cells = level.size * level.size;
+  for (int class_id = 0; class_id < classes; ++class_id) {
+    for (int cell = 0; cell < cells; ++cell) {
+      const auto score =
+          kIsMerged ? score_of_merged(level, cell, class_id) : score_of_raw(level, cell, class_id);
+      if (score) found.push_back({index, cell, class_id, *score});
+    }
+  }
 }
 
 }  // namespace
@@ -68,16 +85,12 @@ std::vector<Solov2Level> solov2_levels(const Solov2Layout& layout,
 
 std::vector<Solov2Candidate> find_candidates(const Solov2Layout& layout,
                                              std::span<const Solov2Level> levels) {
-  const ScoreOf score_of = layout.is_merged ? score_of_merged : score_of_raw;
   std::vector<Solov2Candidate> found;
   for (int i = 0; i < static_cast<int>(levels.size()); ++i) {
-    const Solov2Level& level = levels[static_cast<std::size_t>(i)];
-    const int cells = level.size * level.size;
-    for (int number = 0; number < layout.classes() * cells; ++number) {
-      const int class_id = number / cells;  // class by class, as raw outputs lie in memory
-      const int cell = number % cells;
-      const auto score = score_of(level, cell, class_id);
-      if (score) found.push_back({i, cell, class_id, *score});
+    if (layout.is_merged) {
+      add_candidates<true>(levels, i, layout.classes(), found);
+    } else {
+      add_candidates<false>(levels, i, layout.classes(), found);
     }
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {

@@ -29,10 +29,12 @@ class Network {
                        .class_names = {"person", "chair", "tv"}};
 
   float& at(int row, int anchor) {
-    return anchors_[static_cast<std::size_t>(row * kAnchors + anchor)];
+    const int index = row * kAnchors + anchor;
+    return anchors_[static_cast<std::size_t>(index)];
   }
   float& prototype(int index, int x, int y) {
-    return prototypes_[static_cast<std::size_t>((index * 8 + y) * 16 + x)];
+    const int sample = (index * 8 + y) * 16 + x;
+    return prototypes_[static_cast<std::size_t>(sample)];
   }
 
   /// An object whose mask is prototype 0 as it is.
@@ -110,15 +112,17 @@ struct Reference {
   const Letterbox& letterbox;
 
   [[nodiscard]] double number(int row, int anchor) const {
-    return tensors.anchors[static_cast<std::size_t>(row * layout.anchors + anchor)];
+    const int index = row * layout.anchors + anchor;
+    return tensors.anchors[static_cast<std::size_t>(index)];
   }
 
   [[nodiscard]] double probability_at_prototype(int anchor, int x, int y) const {
     const cv::Size size = layout.prototype_size;
     double logit = 0.0;
     for (int i = 0; i < layout.coefficients; ++i) {
-      const auto at = static_cast<std::size_t>((i * size.height + y) * size.width + x);
-      logit += number(4 + layout.classes() + i, anchor) * tensors.prototypes[at];
+      const int at = (i * size.height + y) * size.width + x;
+      logit += number(4 + layout.classes() + i, anchor) *
+               tensors.prototypes[static_cast<std::size_t>(at)];
     }
     return 1.0 / (1.0 + std::exp(-logit));
   }
@@ -237,14 +241,14 @@ TEST(YoloSegDecoder, DropsLowScoresAndOverlapsOfOneClassOnly) {
 TEST(YoloSegDecoder, KeepsTheBestOfMoreInstancesThanTheMessageHolds) {
   Network network;
   YoloSegLayout& layout = network.layout;
-  const int many = 100;
-  layout.anchors = many;
-  std::vector<float> anchors(static_cast<std::size_t>((4 + 3 + 4) * many), 0.0F);
-  for (int i = 0; i < many; ++i) {
-    anchors[static_cast<std::size_t>(i)] = static_cast<float>(4 * i);  // side by side
-    anchors[static_cast<std::size_t>(2 * many + i)] = 2.0F;
-    anchors[static_cast<std::size_t>(3 * many + i)] = 2.0F;
-    anchors[static_cast<std::size_t>(4 * many + i)] = 0.3F + 0.005F * static_cast<float>(i);
+  constexpr std::size_t kMany = 100;
+  layout.anchors = kMany;
+  std::vector<float> anchors((4 + 3 + 4) * kMany, 0.0F);
+  for (std::size_t i = 0; i < kMany; ++i) {
+    anchors[i] = static_cast<float>(4 * i);  // side by side
+    anchors[2 * kMany + i] = 2.0F;
+    anchors[3 * kMany + i] = 2.0F;
+    anchors[4 * kMany + i] = 0.3F + 0.005F * static_cast<float>(i);
   }
   const YoloSegTensors tensors{anchors, network.tensors().prototypes};
   cv::Mat labels;
@@ -252,7 +256,7 @@ TEST(YoloSegDecoder, KeepsTheBestOfMoreInstancesThanTheMessageHolds) {
                                       DecoderConfig{}, labels);
   ASSERT_TRUE(decoded.has_value());
   EXPECT_EQ(decoded->instances.size(), static_cast<std::size_t>(kMaxInstances));
-  EXPECT_EQ(decoded->left_out, many - kMaxInstances);
+  EXPECT_EQ(decoded->left_out, 100 - kMaxInstances);
   EXPECT_FLOAT_EQ(decoded->instances.front().score, 0.3F + 0.005F * 99);
 }
 

@@ -42,7 +42,7 @@ TEST(YoloSegLayout, IsReadFromShapesAndNames) {
 }
 
 TEST(YoloSegLayout, RejectsAnInputThatIsNoImage) {
-  const auto said = "the input is not one float32 image";
+  const std::string said = "the input is not one float32 image";
   expect_unsupported([](auto& model) { model.inputs.clear(); }, said);
   expect_unsupported([](auto& model) { model.inputs[0].shape = {1, 3, 32}; }, said);
   expect_unsupported([](auto& model) { model.inputs[0].shape = {1, 1, 32, 64}; }, said);
