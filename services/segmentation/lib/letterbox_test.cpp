@@ -62,7 +62,8 @@ void expect_equals_reference(cv::Size frame_size, const InputFormat& format) {
   std::vector<float> tensor = tensor_of(image, format);
   const cv::Mat expected = reference_input(image, format);
   for (int channel = 0; channel < 3; ++channel) {
-    const cv::Mat plane(format.size, CV_32FC1, tensor.data() + channel * format.size.area());
+    const auto first = static_cast<std::ptrdiff_t>(channel) * format.size.area();
+    const cv::Mat plane(format.size, CV_32FC1, tensor.data() + first);
     cv::Mat expected_plane;
     cv::extractChannel(expected, expected_plane, channel);
     EXPECT_LT(cv::norm(plane, expected_plane, cv::NORM_INF), 2e-4)
