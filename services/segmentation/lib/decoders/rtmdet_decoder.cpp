@@ -13,7 +13,7 @@ namespace tsg {
 
 namespace {
 
-constexpr std::size_t kBoxNumbers = 5;
+constexpr std::size_t kDetectionNumbers = 5;
 
 struct Detection {
   std::size_t index = 0;  ///< among the network's
@@ -32,7 +32,8 @@ Expected<Outputs> checked_outputs(const RtmdetLayout& layout, std::span<const Te
                         outputs[layout.masks].floats};
   const std::size_t count = checked.classes.size();
   const auto mask_size = static_cast<std::size_t>(layout.input_size.area());
-  if (checked.boxes.size() != count * kBoxNumbers || checked.masks.size() != count * mask_size) {
+  if (checked.boxes.size() != count * kDetectionNumbers ||
+      checked.masks.size() != count * mask_size) {
     return make_error(ExitCode::kUnsupportedModel,
                       "the network gave " + std::to_string(count) + " labels, but " +
                           std::to_string(checked.boxes.size()) + " numbers of boxes (5 each) and " +
@@ -46,8 +47,8 @@ Expected<Outputs> checked_outputs(const RtmdetLayout& layout, std::span<const Te
 
 std::vector<Detection> detections_above(float threshold, std::span<const float> boxes) {
   std::vector<Detection> detections;
-  for (std::size_t i = 0; i < boxes.size() / kBoxNumbers; ++i) {
-    const float score = boxes[kBoxNumbers * i + kBoxNumbers - 1];
+  for (std::size_t i = 0; i < boxes.size() / kDetectionNumbers; ++i) {
+    const float score = boxes[kDetectionNumbers * i + kDetectionNumbers - 1];
     if (score > threshold) detections.push_back({i, score});
   }
   std::stable_sort(detections.begin(), detections.end(),
@@ -71,7 +72,7 @@ Expected<void> check_classes(const RtmdetLayout& layout,
 }
 
 cv::Rect2f box_of(std::span<const float> boxes, std::size_t index) {
-  const float* box = boxes.data() + kBoxNumbers * index;
+  const float* box = boxes.data() + kDetectionNumbers * index;
   return {cv::Point2f(box[0], box[1]), cv::Point2f(box[2], box[3])};
 }
 
