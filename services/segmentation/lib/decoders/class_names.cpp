@@ -13,7 +13,7 @@ namespace tsg {
 namespace {
 
 constexpr std::size_t kMaxNameBytes = 31;  // what a message has room for
-constexpr const char* kFix =
+constexpr const char* kHowToName =
     "; give the names in a text file, one on each line, with segmentation.model.labels "
     "(tsgctl model check: --labels)";
 
@@ -74,7 +74,7 @@ Expected<std::vector<std::string>> parse_class_names(std::string_view dictionary
   const auto wrong = [&] {
     return make_error(ExitCode::kUnsupportedModel,
                       "the metadata key `names` should read {0: 'person', 1: ...}, not \"" +
-                          std::string(dictionary.substr(0, 60)) + "\"" + kFix);
+                          std::string(dictionary.substr(0, 60)) + "\"" + kHowToName);
   };
   DictionaryReader reader(dictionary);
   if (!reader.skip('{')) return wrong();
@@ -85,7 +85,7 @@ Expected<std::vector<std::string>> parse_class_names(std::string_view dictionary
     if (!reader.read_key(key) || key != static_cast<int>(names.size())) return wrong();
     if (!reader.skip(':') || !reader.read_string(name) || name.empty()) return wrong();
     if (name.size() > kMaxNameBytes) {
-      return make_error(ExitCode::kUnsupportedModel, too_long(name) + kFix);
+      return make_error(ExitCode::kUnsupportedModel, too_long(name) + kHowToName);
     }
     names.push_back(std::move(name));
   } while (reader.skip(','));
@@ -98,7 +98,7 @@ Expected<ClassNames> class_names_of(const ModelDescription& model) {
   if (found == model.metadata.end()) {
     return make_error(
         ExitCode::kUnsupportedModel,
-        std::string("the model does not name its classes (no metadata key `names`)") + kFix);
+        std::string("the model does not name its classes (no metadata key `names`)") + kHowToName);
   }
   auto names = parse_class_names(found->second);
   if (!names) return tl::unexpected(names.error());

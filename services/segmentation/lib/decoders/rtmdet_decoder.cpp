@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kDetectionNumbers = 5;
 
-struct Detection {
+struct RtmdetDetection {
   std::size_t index = 0;  ///< among the network's
   float score = 0.0F;
 };
@@ -45,8 +45,8 @@ Expected<Outputs> checked_outputs(const RtmdetLayout& layout, std::span<const Te
   return checked;
 }
 
-std::vector<Detection> detections_above(float threshold, std::span<const float> boxes) {
-  std::vector<Detection> detections;
+std::vector<RtmdetDetection> detections_above(float threshold, std::span<const float> boxes) {
+  std::vector<RtmdetDetection> detections;
   for (std::size_t i = 0; i < boxes.size() / kDetectionNumbers; ++i) {
     const float score = boxes[kDetectionNumbers * i + kDetectionNumbers - 1];
     if (score > threshold) detections.push_back({i, score});
@@ -57,10 +57,10 @@ std::vector<Detection> detections_above(float threshold, std::span<const float> 
 }
 
 Expected<void> check_classes(const RtmdetLayout& layout,
-                             std::span<const Detection> detections,
+                             std::span<const RtmdetDetection> detections,
                              std::span<const std::int64_t> classes) {
   const auto known = static_cast<std::int64_t>(layout.class_names.size());
-  for (const Detection& detection : detections) {
+  for (const RtmdetDetection& detection : detections) {
     const std::int64_t class_id = classes[detection.index];
     if (class_id >= 0 && class_id < known) continue;
     return make_error(ExitCode::kUnsupportedModel,
@@ -78,11 +78,11 @@ cv::Rect2f box_of(std::span<const float> boxes, std::size_t index) {
 
 /// The masks of `detections`. Others are not looked at: networks that always give a hundred
 /// detections, most of them empty, have masks of 160 MB at 640 x 640.
-Expected<std::vector<std::span<const float>>> masks_of(std::span<const Detection> detections,
+Expected<std::vector<std::span<const float>>> masks_of(std::span<const RtmdetDetection> detections,
                                                        std::span<const float> masks,
                                                        std::size_t mask_length) {
   std::vector<std::span<const float>> chosen;
-  for (const Detection& detection : detections) {
+  for (const RtmdetDetection& detection : detections) {
     chosen.push_back(masks.subspan(detection.index * mask_length, mask_length));
     if (auto finite = check_finite(chosen.back()); !finite) return tl::unexpected(finite.error());
   }
@@ -145,7 +145,7 @@ Expected<DecodedInstances> RtmdetDecoder::decode(std::span<const TensorView> out
     paint_mask(probabilities(layout_.input_size, (*masks)[i - 1], of_logits), sampling,
                static_cast<std::uint8_t>(i), labels);
   }
-  for (const Detection& detection : detections) {
+  for (const RtmdetDetection& detection : detections) {
     const auto class_id = static_cast<std::size_t>(found->classes[detection.index]);
     decoded.instances.push_back({.class_name = layout_.class_names[class_id],
                                  .score = detection.score,

@@ -1,17 +1,16 @@
 #include "services/segmentation/lib/decoders/solov2_cells.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <tuple>
+
+#include "services/segmentation/lib/decoders/sigmoid.hpp"
 
 namespace tsg {
 
 namespace {
 
 constexpr float kMinScore = 0.1F;
-
-float sigmoid(float logit) { return 1.0F / (1.0F + std::exp(-logit)); }
 
 /// Whether no cell left of it, above or both has more of this class. SOLOv2 pools 2 x 2 cells with
 /// padding at the left and at the top.

@@ -11,6 +11,7 @@
 #include "services/segmentation/lib/decoders/finite.hpp"
 #include "services/segmentation/lib/decoders/mask_painter.hpp"
 #include "services/segmentation/lib/decoders/matrix_nms.hpp"
+#include "services/segmentation/lib/decoders/sigmoid.hpp"
 #include "services/segmentation/lib/decoders/solov2_cells.hpp"
 
 namespace tsg {
@@ -34,7 +35,7 @@ struct CellMask {
   float mean_probability = 0.0F;  ///< of the samples inside
 };
 
-struct Detection {
+struct Solov2Detection {
   const CellMask* mask = nullptr;
   int class_id = 0;
   float score = 0.0F;
@@ -66,8 +67,6 @@ class MaskMaker {
   std::span<const Solov2Level> levels_;
   Eigen::Map<const Matrix> feature_;
 };
-
-float sigmoid(float logit) { return 1.0F / (1.0F + std::exp(-logit)); }
 
 float mean_probability_inside(std::span<const float> logits, int area) {
   if (area == 0) return 0.0F;
@@ -104,17 +103,17 @@ std::vector<CellMask> masks_of_cells(std::span<const Solov2Candidate> candidates
   return masks;
 }
 
-void sort_by_score(std::vector<Detection>& detections) {
+void sort_by_score(std::vector<Solov2Detection>& detections) {
   // Stable: of equal scores the finer grid's first cell wins.
   std::stable_sort(detections.begin(), detections.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });
 }
 
 /// Candidates with masks that are large enough for their grid, by falling score.
-std::vector<Detection> detections_before_nms(std::span<const Solov2Candidate> candidates,
-                                             std::span<const CellMask> masks,
-                                             std::span<const Solov2Level> levels) {
-  std::vector<Detection> detections;
+std::vector<Solov2Detection> detections_before_nms(std::span<const Solov2Candidate> candidates,
+                                                   std::span<const CellMask> masks,
+                                                   std::span<const Solov2Level> levels) {
+  std::vector<Solov2Detection> detections;
   auto mask = masks.begin();
   for (const Solov2Candidate& candidate : candidates) {
     while (mask->cell != candidate.cell || mask->level != candidate.level) ++mask;
@@ -126,31 +125,33 @@ std::vector<Detection> detections_before_nms(std::span<const Solov2Candidate> ca
   return detections;
 }
 
-std::vector<Detection> after_nms(std::vector<Detection> detections, float score_threshold) {
+std::vector<Solov2Detection> after_nms(std::vector<Solov2Detection> detections,
+                                       float score_threshold) {
   std::vector<ClassMask> masks;
   masks.reserve(detections.size());
-  for (const Detection& detection : detections) {
+  for (const Solov2Detection& detection : detections) {
     masks.push_back({&detection.mask->bits, detection.class_id});
   }
   const std::vector<float> decay = matrix_nms(masks, kSigma);
   for (std::size_t i = 0; i < detections.size(); ++i) detections[i].score *= decay[i];
   sort_by_score(detections);
   if (detections.size() > kMaxAfterNms) detections.resize(kMaxAfterNms);
-  const auto end = std::find_if(detections.begin(), detections.end(), [&](const Detection& d) {
-    return d.score < kMinScoreAfterNms || !(d.score > score_threshold);
-  });
+  const auto end =
+      std::find_if(detections.begin(), detections.end(), [&](const Solov2Detection& d) {
+        return d.score < kMinScoreAfterNms || !(d.score > score_threshold);
+      });
   detections.erase(end, detections.end());
   return detections;
 }
 
 /// Paints the masks of `detections`, the first on top; the box of each.
-std::vector<cv::Rect> paint(std::span<const Detection> detections,
+std::vector<cv::Rect> paint(std::span<const Solov2Detection> detections,
                             const MaskMaker& maker,
                             const Letterbox& letterbox,
                             cv::Mat& labels) {
   std::vector<const CellMask*> cells;
   cells.reserve(detections.size());
-  for (const Detection& detection : detections) cells.push_back(detection.mask);
+  for (const Solov2Detection& detection : detections) cells.push_back(detection.mask);
   Matrix probabilities = maker.logits(cells);
   probabilities = probabilities.unaryExpr([](float logit) { return sigmoid(logit); });
   const cv::Size size = letterbox.input_size / kMaskStep;

@@ -17,17 +17,19 @@ using test::MadeObject;
 using test::MadeSolov2;
 using testing::HasSubstr;
 
-struct Decoded {
+struct DecodedNetwork {
   Expected<DecodedInstances> found;
   cv::Mat labels;
 };
 
-Decoded decode(const MadeNetwork& network, cv::Size frame_size, const DecoderConfig& config = {}) {
+DecodedNetwork decode(const MadeNetwork& network,
+                      cv::Size frame_size,
+                      const DecoderConfig& config = {}) {
   const ClassNames names{network.class_names(), "the test"};
   auto layout = value_or_throw(solov2_layout(network.description(), names));
   const Solov2Decoder decoder(std::move(layout), config);
   const InputFormat& format = decoder.input_format();
-  Decoded decoded;
+  DecodedNetwork decoded;
   decoded.found = decoder.decode(
       network.views(), make_letterbox(frame_size, format.size, format.placement), decoded.labels);
   return decoded;
@@ -41,7 +43,7 @@ MadeNetwork without_noise(const std::vector<MadeObject>& objects, bool is_merged
 
 TEST(Solov2Decoder, FindsClassMaskAndBoxInFramePixels) {
   const MadeObject object{.class_id = 4, .centre = {0.25F, 0.5F}, .radii = {0.2F, 0.3F}};
-  const Decoded decoded = decode(without_noise({object}), {320, 256});
+  const DecodedNetwork decoded = decode(without_noise({object}), {320, 256});
   ASSERT_TRUE(decoded.found.has_value()) << decoded.found.error().message;
   ASSERT_EQ(decoded.found->instances.size(), 1U);
   const Instance& found = decoded.found->instances[0];
@@ -59,7 +61,7 @@ TEST(Solov2Decoder, FindsClassMaskAndBoxInFramePixels) {
 TEST(Solov2Decoder, CutsThePaddingOff) {
   // The input is 160 x 128; a frame of 160 x 64 fills its upper half, all of which is the object.
   const MadeObject object{.centre = {0.5F, 0.25F}, .radii = {2.0F, 2.0F}};
-  const Decoded decoded = decode(without_noise({object}), {160, 64});
+  const DecodedNetwork decoded = decode(without_noise({object}), {160, 64});
   ASSERT_TRUE(decoded.found.has_value()) << decoded.found.error().message;
   EXPECT_EQ(decoded.labels.size(), cv::Size(160, 64));
   EXPECT_EQ(cv::countNonZero(decoded.labels), 160 * 64);
@@ -68,8 +70,8 @@ TEST(Solov2Decoder, CutsThePaddingOff) {
 TEST(Solov2Decoder, FindsTheSameInRawAndInMergedOutputs) {
   std::mt19937 random(3);
   const auto objects = test::random_objects(8, 7, random);
-  const Decoded raw = decode(without_noise(objects, false), {320, 256});
-  const Decoded merged = decode(without_noise(objects, true), {320, 256});
+  const DecodedNetwork raw = decode(without_noise(objects, false), {320, 256});
+  const DecodedNetwork merged = decode(without_noise(objects, true), {320, 256});
   ASSERT_TRUE(raw.found.has_value() && merged.found.has_value());
   ASSERT_GE(raw.found->instances.size(), 4U);
   ASSERT_EQ(raw.found->instances.size(), merged.found->instances.size());
@@ -79,7 +81,7 @@ TEST(Solov2Decoder, FindsTheSameInRawAndInMergedOutputs) {
 TEST(Solov2Decoder, PutsTheHigherScoreOnTopAndFirst) {
   const MadeObject worse{.class_id = 1, .score = 0.6F, .centre = {0.4F, 0.5F}};
   const MadeObject better{.class_id = 2, .score = 0.9F, .centre = {0.6F, 0.5F}};
-  const Decoded decoded = decode(without_noise({worse, better}), {160, 128});
+  const DecodedNetwork decoded = decode(without_noise({worse, better}), {160, 128});
   ASSERT_TRUE(decoded.found.has_value());
   ASSERT_EQ(decoded.found->instances.size(), 2U);
   EXPECT_EQ(decoded.found->instances[0].class_name, "class 2");
@@ -111,7 +113,7 @@ TEST(Solov2Decoder, KeepsTheBestOfMoreInstancesThanAMessageHolds) {
   }
   std::mt19937 random(1);
   const MadeSolov2 made{.input_size = {320, 256}, .kernel_length = 100, .noise = 0.0F};
-  const Decoded decoded = decode(made.network(objects, random), {320, 256});
+  const DecodedNetwork decoded = decode(made.network(objects, random), {320, 256});
   ASSERT_TRUE(decoded.found.has_value());
   EXPECT_EQ(decoded.found->instances.size(), static_cast<std::size_t>(kMaxInstances));
   EXPECT_GE(decoded.found->left_out, 1);
@@ -138,7 +140,7 @@ TEST(Solov2Decoder, WithholdsOutputsThatAreNotNumbers) {
     for (std::size_t i = 0; i < 11; ++i) {
       MadeNetwork network = without_noise({{}});
       network.outputs[i].floats[3] = poison;
-      const Decoded decoded = decode(network, {160, 128});
+      const DecodedNetwork decoded = decode(network, {160, 128});
       ASSERT_FALSE(decoded.found.has_value()) << "output " << i;
       EXPECT_EQ(decoded.found.error().code, ExitCode::kInvalidNumber);
       EXPECT_THAT(decoded.found.error().message, HasSubstr("NaN"));

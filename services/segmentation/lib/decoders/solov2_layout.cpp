@@ -17,14 +17,14 @@ constexpr std::array<int, kLevels> kPublishedGrids{40, 36, 24, 16, 12};
 constexpr std::int64_t kPublishedCells = 3872;  // of these grids
 constexpr std::size_t kRawOutputs = 2 * kLevels + 1;
 constexpr std::size_t kMergedOutputs = 3;
-constexpr const char* kHowToExport =
+constexpr const char* kHowToExportSolov2 =
     "; a SOLOv2 network is to be exported as 11 raw outputs (5 of class scores [1,C,S,S], 5 of "
     "kernels [1,E,S,S], the feature [1,E,H/4,W/4]) or merged (scores [3872,C], kernels [3872,E], "
     "feature [1,E,H/4,W/4]), with a fixed input size";
 
-tl::unexpected<Error> unsupported(const std::string& what, const ModelDescription& model) {
+tl::unexpected<Error> no_solov2(const std::string& what, const ModelDescription& model) {
   return make_error(ExitCode::kUnsupportedModel,
-                    what + ": " + to_string(model.outputs) + kHowToExport);
+                    what + ": " + to_string(model.outputs) + kHowToExportSolov2);
 }
 
 /// An output with what its shape says, without a leading 1.
@@ -167,7 +167,7 @@ Expected<Solov2Layout> solov2_layout(const ModelDescription& model, const ClassN
   if (!input_size) return tl::unexpected(input_size.error());
   for (const TensorDescription& output : model.outputs) {
     if (output.type != ElementType::kFloat32 || !output.has_fixed_shape()) {
-      return unsupported("the outputs are not all float32 of fixed shape", model);
+      return no_solov2("the outputs are not all float32 of fixed shape", model);
     }
   }
   Solov2Layout layout;
@@ -175,12 +175,12 @@ Expected<Solov2Layout> solov2_layout(const ModelDescription& model, const ClassN
   layout.mask_size = *input_size / 4;
   layout.class_names = names.names;
   if (layout.mask_size * 4 != *input_size) {
-    return unsupported("width and height of the input are not multiples of 4", model);
+    return no_solov2("width and height of the input are not multiples of 4", model);
   }
   std::optional<std::int64_t> classes;
   if (model.outputs.size() == kRawOutputs) classes = find_raw(outputs_of(model), layout);
   if (model.outputs.size() == kMergedOutputs) classes = find_merged(outputs_of(model), layout);
-  if (!classes) return unsupported("the outputs are not those of SOLOv2", model);
+  if (!classes) return no_solov2("the outputs are not those of SOLOv2", model);
   if (auto counted = check_class_count(names, *classes); !counted) {
     return tl::unexpected(counted.error());
   }

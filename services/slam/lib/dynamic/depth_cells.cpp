@@ -35,7 +35,7 @@ void spread(const cv::Mat& depth,
     const cv::Point to = from + side;
     if (!inside.contains(to) || marked.at<std::uint8_t>(to) != 0) continue;
     const float there = depth.at<float>(to);
-    if (there < limits.nearest || there > limits.farthest) continue;
+    if (there <= 0.0F || there < limits.nearest || there > limits.farthest) continue;
     if (here > 0.0F && std::abs(there - here) > kConnectedStep * here) continue;
     marked.at<std::uint8_t>(to) = kMarked;
     next.push_back(to);

@@ -188,9 +188,13 @@ cv::Mat InstanceTracks::locate(const PastFrame& frame,
   cv::Mat located = cv::Mat::zeros(camera_.height, camera_.width, CV_8UC1);
   if (mask != nullptr) mark_exact(*mask, frame.depth, located);
   const SE3 T_camera_world = T_world_camera.inverse();
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (mask != nullptr && tracks_[i].is_named() && tracks_[i].missed_masks == 0) continue;
-    mark_carried(i, frame, T_camera_world, located);
+  // A mask knows better where a thing ends, so that what has a name comes first.
+  for (const bool named : {true, false}) {
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      if (tracks_[i].is_named() != named) continue;
+      if (mask != nullptr && named && tracks_[i].missed_masks == 0) continue;
+      mark_carried(i, frame, T_camera_world, located);
+    }
   }
   return located;
 }

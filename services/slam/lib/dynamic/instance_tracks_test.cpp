@@ -127,6 +127,20 @@ TEST_F(InstanceTracksTest, FollowsTheUnnamedAtRestOnceItSurelyMoved) {
   EXPECT_TRUE(tracks_.tracks().empty());
 }
 
+TEST_F(InstanceTracksTest, GivesPlacesToWhatHasANameFirst) {
+  look();
+  see_it_move();
+  look();
+  take_in({"chair"});
+  ASSERT_EQ(tracks_.tracks().size(), 2U);
+  ASSERT_FALSE(tracks_.tracks()[0].is_named());
+  ASSERT_TRUE(tracks_.tracks()[1].is_named());
+  const cv::Mat located = tracks_.locate(now_, SE3(), nullptr);
+  EXPECT_GT(cv::countNonZero((located == 2) & board_cells()),
+            0.95 * cv::countNonZero(board_cells()));
+  EXPECT_EQ(cv::countNonZero(located == 1), 0);
+}
+
 TEST_F(InstanceTracksTest, SoonForgetsTheUnnamedThatHardlyMoved) {
   look();
   see_it_move();
