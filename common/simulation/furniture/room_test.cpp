@@ -147,6 +147,14 @@ TEST(Building, BuildsEverySurfaceOnFloorsAndWalls) {
   }
 }
 
+TEST(Building, LaysBoardsThatEndAtTheEdgeOfTheirPicture) {
+  SceneDescription scene = two_rooms();
+  scene.rooms.resize(1);
+  scene.rooms.front().floor = "laminate";
+  scene.seed = 100'002;  // with it a board begins at the very edge
+  EXPECT_FALSE(make_building(scene).shell.triangles.empty());
+}
+
 TEST(Building, KeepsToItsBudgetOfTriangles) {
   EXPECT_LT(make_building(two_rooms()).shell.triangles.size(), 20000U);
 }

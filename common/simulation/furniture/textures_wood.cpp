@@ -53,6 +53,7 @@ void lay_board(cv::Mat& picture, const cv::Rect& area, const cv::Mat& source, Ra
   const Colour joint = cv::mean(board) * 0.45;
   cv::rectangle(board, whole, joint, 1);
   const cv::Rect visible = area & cv::Rect({0, 0}, picture.size());
+  if (visible.empty()) return;  // its end is at the picture's edge
   board(visible - area.tl()).copyTo(picture(visible));
 }
 
