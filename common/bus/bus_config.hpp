@@ -9,7 +9,8 @@ namespace tsg {
 struct BusConfig {
   int standard_domain = 0;
   int shared_memory_domain = 10;
-  /// Network interface of the standard domain; shared memory never leaves the host.
+  /// Network interface that the standard domain goes over, beside lo; shared memory never leaves
+  /// the host.
   std::string interface = "lo";
   /// False sends images over UDP as well: for tests and for hosts without RouDi; slow.
   bool use_shared_memory = true;

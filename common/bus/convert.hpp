@@ -31,13 +31,18 @@ namespace tsg {
 /// The same of a keyframe; without labels (has_labels) an empty cv::Mat and no instances.
 [[nodiscard]] Expected<InstanceSegmentation> view_as_instances(const tsg_Keyframe& message);
 
-/// Fills all but model_name and inference_ns. kSizeMismatch where labels are not CV_8UC1 or
-/// larger than the wire type has room for; kBadData for too many instances or too long a name.
+/// Fills all but model_name, inference_ns and input_age_ns. kSizeMismatch where labels are not
+/// CV_8UC1 or larger than the wire type has room for; kBadData for too many instances or too long a
+/// name.
 [[nodiscard]] Expected<void> fill_message(const InstanceSegmentation& segmentation,
                                           tsg_InstanceMask& message);
 /// Fills the labels and instances of a keyframe that already has its frame, of the same size.
 [[nodiscard]] Expected<void> fill_message(const InstanceSegmentation& segmentation,
                                           tsg_Keyframe& message);
+
+[[nodiscard]] Instance to_instance(const tsg_Instance& message);
+/// kBadData for too long a name.
+[[nodiscard]] Expected<tsg_Instance> to_message(const Instance& instance);
 
 [[nodiscard]] tsg_CameraIntrinsics to_message(const CameraModel& camera);
 [[nodiscard]] CameraModel to_camera(const tsg_CameraIntrinsics& message);

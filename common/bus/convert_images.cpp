@@ -83,33 +83,6 @@ Expected<void> fill_images(const RgbdFrame& frame, Message& message) {
   return {};
 }
 
-Instance to_instance(const tsg_Instance& message) {
-  static_assert(tsg_MOTION_STATIC == static_cast<int>(MotionVerdict::kStatic) &&
-                tsg_MOTION_MOVING == static_cast<int>(MotionVerdict::kMoving));
-  return {.class_name = text_of(message.class_name),
-          .score = message.score,
-          .box = {cv::Point2f(message.box_min_x, message.box_min_y),
-                  cv::Point2f(message.box_max_x, message.box_max_y)},
-          .motion = static_cast<MotionVerdict>(message.motion)};
-}
-
-Expected<void> fill_instance(const Instance& instance, tsg_Instance& message) {
-  if (instance.class_name.size() >= sizeof(message.class_name)) {
-    return make_error(ExitCode::kBadData,
-                      "class name '" + instance.class_name + "' is longer than " +
-                          std::to_string(sizeof(message.class_name) - 1) + " bytes");
-  }
-  message = {};
-  instance.class_name.copy(message.class_name, instance.class_name.size());
-  message.score = instance.score;
-  message.box_min_x = instance.box.x;
-  message.box_min_y = instance.box.y;
-  message.box_max_x = instance.box.x + instance.box.width;
-  message.box_max_y = instance.box.y + instance.box.height;
-  message.motion = static_cast<tsg_MotionVerdict>(instance.motion);
-  return {};
-}
-
 /// Of InstanceMask and Keyframe; `labels` is a view into `message`.
 template <typename Message>
 Expected<InstanceSegmentation> view_labels(const Message& message, const cv::Mat& labels) {
@@ -146,7 +119,9 @@ Expected<void> fill_labels(const InstanceSegmentation& segmentation, Message& me
   }
   std::size_t count = 0;
   for (const Instance& instance : segmentation.instances) {
-    if (auto filled = fill_instance(instance, message.instances[count++]); !filled) return filled;
+    auto converted = to_message(instance);
+    if (!converted) return tl::unexpected(converted.error());
+    message.instances[count++] = *converted;
   }
   message.instance_count = static_cast<std::uint32_t>(count);
   labels.copyTo(view(message.labels, labels.cols, labels.rows, CV_8UC1));
@@ -154,6 +129,35 @@ Expected<void> fill_labels(const InstanceSegmentation& segmentation, Message& me
 }
 
 }  // namespace
+
+Instance to_instance(const tsg_Instance& message) {
+  static_assert(tsg_MOTION_STATIC == static_cast<int>(MotionVerdict::kStatic) &&
+                tsg_MOTION_MOVING == static_cast<int>(MotionVerdict::kMoving));
+  return {.class_name = text_of(message.class_name),
+          .score = message.score,
+          .box = {cv::Point2f(message.box_min_x, message.box_min_y),
+                  cv::Point2f(message.box_max_x, message.box_max_y)},
+          .motion = static_cast<MotionVerdict>(message.motion),
+          .track_id = message.track_id};
+}
+
+Expected<tsg_Instance> to_message(const Instance& instance) {
+  tsg_Instance message{};
+  if (instance.class_name.size() >= sizeof(message.class_name)) {
+    return make_error(ExitCode::kBadData,
+                      "class name '" + instance.class_name + "' is longer than " +
+                          std::to_string(sizeof(message.class_name) - 1) + " bytes");
+  }
+  instance.class_name.copy(message.class_name, instance.class_name.size());
+  message.score = instance.score;
+  message.box_min_x = instance.box.x;
+  message.box_min_y = instance.box.y;
+  message.box_max_x = instance.box.x + instance.box.width;
+  message.box_max_y = instance.box.y + instance.box.height;
+  message.motion = static_cast<tsg_MotionVerdict>(instance.motion);
+  message.track_id = instance.track_id;
+  return message;
+}
 
 Expected<RgbdFrame> view_as_frame(const tsg_RgbdFrame& message) {
   auto frame = view_images(message);

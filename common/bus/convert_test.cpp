@@ -33,7 +33,8 @@ InstanceSegmentation small_segmentation() {
   segmentation.instances = {{.class_name = "person",
                              .score = 0.5F,
                              .box = {1, 2, 3, 4},
-                             .motion = MotionVerdict::kMoving},
+                             .motion = MotionVerdict::kMoving,
+                             .track_id = 41},
                             {.class_name = "potted plant", .score = 1.0F, .box = {0, 0, 2, 2}}};
   return segmentation;
 }
@@ -118,6 +119,8 @@ TEST(ConvertInstances, ComeBackAsTheyWere) {
   EXPECT_EQ(view->instances[0].class_name, "person");
   EXPECT_EQ(view->instances[0].box, sent.instances[0].box);
   EXPECT_EQ(view->instances[0].motion, MotionVerdict::kMoving);
+  EXPECT_EQ(view->instances[0].track_id, 41U);
+  EXPECT_EQ(view->instances[1].track_id, 0U);
   EXPECT_EQ(view->instances[1].class_name, "potted plant");
   EXPECT_EQ(view->instances[1].motion, MotionVerdict::kUnknown);
 }

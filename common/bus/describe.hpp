@@ -15,6 +15,8 @@ namespace tsg {
 [[nodiscard]] nlohmann::json to_json(const tsg_Keyframe& message);
 [[nodiscard]] nlohmann::json to_json(const tsg_TrackingStatus& message);
 [[nodiscard]] nlohmann::json to_json(const tsg_KeyframePoses& message);
+[[nodiscard]] nlohmann::json to_json(const tsg_CompressedColour& message);
+[[nodiscard]] nlohmann::json to_json(const tsg_CompressedMask& message);
 [[nodiscard]] nlohmann::json to_json(const tsg_Command& message);
 [[nodiscard]] nlohmann::json to_json(const tsg_Reply& message);
 [[nodiscard]] nlohmann::json to_json(const geometry_msgs_msg_dds__PoseStamped_& message);

@@ -56,19 +56,24 @@ const char* state_name(tsg_TrackingState state) {
   return index < kNames.size() ? kNames.at(index) : "invalid";
 }
 
-/// Of InstanceMask and Keyframe.
-template <typename Message>
-json describe_instances(const Message& message) {
+json describe_each(std::span<const tsg_Instance> instances) {
   json all = json::array();
-  const auto count = std::min<std::uint32_t>(message.instance_count, tsg_MAX_INSTANCES);
-  for (const tsg_Instance& instance : std::span(message.instances).first(count)) {
+  for (const tsg_Instance& instance : instances) {
     all.push_back(
         {{"class", text_of(instance.class_name)},
          {"score", instance.score},
          {"box", {instance.box_min_x, instance.box_min_y, instance.box_max_x, instance.box_max_y}},
-         {"motion", motion_name(instance.motion)}});
+         {"motion", motion_name(instance.motion)},
+         {"track_id", instance.track_id}});
   }
   return all;
+}
+
+/// Of InstanceMask and Keyframe.
+template <typename Message>
+json describe_instances(const Message& message) {
+  const auto count = std::min<std::uint32_t>(message.instance_count, tsg_MAX_INSTANCES);
+  return describe_each(std::span(message.instances).first(count));
 }
 
 json describe_labels(std::span<const std::uint8_t> labels) {
@@ -113,6 +118,7 @@ json to_json(const tsg_InstanceMask& message) {
           {"instances", describe_instances(message)},
           {"model_name", text_of(message.model_name)},
           {"inference_ns", message.inference_ns},
+          {"input_age_ns", message.input_age_ns},
           {"labels", describe_labels(std::span(message.labels).first(pixels))}};
 }
 
@@ -161,6 +167,23 @@ json to_json(const tsg_KeyframePoses& message) {
                          {"T_world_camera", describe_pose(keyframe.T_world_camera)}});
   }
   return {{"header", describe_header(message.header)}, {"keyframes", keyframes}};
+}
+
+json to_json(const tsg_CompressedColour& message) {
+  return {{"header", describe_header(message.header)},
+          {"width", message.width},
+          {"height", message.height},
+          {"jpeg", {{"bytes", elements(message.jpeg).size()}}}};
+}
+
+json to_json(const tsg_CompressedMask& message) {
+  return {{"header", describe_header(message.header)},
+          {"width", message.width},
+          {"height", message.height},
+          {"model_name", text_of(message.model_name)},
+          {"inference_ns", message.inference_ns},
+          {"instances", describe_each(elements(message.instances))},
+          {"labels", {{"bytes", elements(message.labels).size()}}}};
 }
 
 json to_json(const tsg_Command& message) {

@@ -27,7 +27,18 @@ std::string interface_xml(const std::string& name) {
   // The loopback interface does not claim multicast but does it: without this attribute Cyclone
   // falls back to asking each peer by its port number.
   const char* multicast = name == "lo" ? " multicast=\"true\"" : "";
-  return "<Interfaces><NetworkInterface name=\"" + name + "\"" + multicast + "/></Interfaces>";
+  return "<NetworkInterface name=\"" + name + "\"" + multicast + "/>";
+}
+
+/// What a domain runs over. Beside another interface always lo, so that this host's processes hear
+/// each other when that one goes down.
+std::string transport_xml(const std::string& interface) {
+  if (interface == "lo") return "<Interfaces>" + interface_xml("lo") + "</Interfaces>";
+  // Packets that fit Ethernet's: of one that the network has to cut up, each part that is lost
+  // takes all others along. Multicast for discovery only: on Wi-Fi it is slow and unreliable.
+  return "<Interfaces>" + interface_xml("lo") + interface_xml(interface) +
+         "</Interfaces><AllowMulticast>spdp</AllowMulticast>"
+         "<MaxMessageSize>1400B</MaxMessageSize><FragmentSize>1300B</FragmentSize>";
 }
 
 }  // namespace
@@ -40,7 +51,7 @@ std::string domain_xml(const BusConfig& config, Domain domain) {
   const bool is_standard = domain == Domain::kStandard;
   const std::string id = std::to_string(domain_id(config, domain));
   std::string xml = "<CycloneDDS><Domain Id=\"" + id + "\"><General>" +
-                    interface_xml(is_standard ? config.interface : "lo") +
+                    transport_xml(is_standard ? config.interface : "lo") +
                     "</General><Discovery><LeaseDuration>2s</LeaseDuration></Discovery>";
   if (!is_standard && config.use_shared_memory) {
     // The prefix keeps topics of one name in two domains apart, which iceoryx would mix up.

@@ -19,6 +19,7 @@ extern "C" {
 #include "tsg/instance_mask.h"
 #include "tsg/keyframe.h"
 #include "tsg/keyframe_poses.h"
+#include "tsg/remote_segmentation.h"
 #include "tsg/rgbd_frame.h"
 #include "tsg/tracking_status.h"
 }
@@ -35,6 +36,8 @@ template <> inline const dds_topic_descriptor_t& descriptor<tsg_InstanceMask>() 
 template <> inline const dds_topic_descriptor_t& descriptor<tsg_Keyframe>() { return tsg_Keyframe_desc; }
 template <> inline const dds_topic_descriptor_t& descriptor<tsg_TrackingStatus>() { return tsg_TrackingStatus_desc; }
 template <> inline const dds_topic_descriptor_t& descriptor<tsg_KeyframePoses>() { return tsg_KeyframePoses_desc; }
+template <> inline const dds_topic_descriptor_t& descriptor<tsg_CompressedColour>() { return tsg_CompressedColour_desc; }
+template <> inline const dds_topic_descriptor_t& descriptor<tsg_CompressedMask>() { return tsg_CompressedMask_desc; }
 template <> inline const dds_topic_descriptor_t& descriptor<tsg_Command>() { return tsg_Command_desc; }
 template <> inline const dds_topic_descriptor_t& descriptor<tsg_Reply>() { return tsg_Reply_desc; }
 template <> inline const dds_topic_descriptor_t& descriptor<geometry_msgs_msg_dds__PoseStamped_>() { return geometry_msgs_msg_dds__PoseStamped__desc; }

@@ -42,6 +42,20 @@ struct KeyframePoses {
   static constexpr Qos kQos{.keep_last = 1};
 };
 
+/// Frames for segmentation on another host, and its answers (services/segmentation/remote). So many
+/// are kept as may be under way, since what was lost of them is sent again.
+struct RemoteColour {
+  using Message = tsg_CompressedColour;
+  static constexpr const char* kName = "tsg/remote/colour";
+  static constexpr Qos kQos{.keep_last = 4};
+};
+
+struct RemoteMask {
+  using Message = tsg_CompressedMask;
+  static constexpr const char* kName = "tsg/remote/mask";
+  static constexpr Qos kQos{.keep_last = 4};
+};
+
 struct Command {
   using Message = tsg_Command;
   static constexpr const char* kName = "tsg/command";
@@ -108,6 +122,8 @@ using All = std::tuple<Rgbd,
                        Keyframe,
                        TrackingStatus,
                        KeyframePoses,
+                       RemoteColour,
+                       RemoteMask,
                        Command,
                        Reply,
                        Pose,

@@ -182,8 +182,11 @@ Expected<TrueMask> InstanceTruth::mask_at(std::int64_t stamp_ns,
   for (const Region& region : regions) {
     const KnownInstance& known = instances_.at(region.id);
     result.ids.push_back(region.id);
-    result.segmentation.instances.push_back(
-        {known.class_name, 1.0F, region.box(), motion_at(known, mask.stamp_ns)});
+    result.segmentation.instances.push_back({.class_name = known.class_name,
+                                             .score = 1.0F,
+                                             .box = region.box(),
+                                             .motion = motion_at(known, mask.stamp_ns),
+                                             .track_id = static_cast<std::uint32_t>(region.id)});
   }
   return result;
 }

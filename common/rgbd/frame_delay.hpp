@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -15,10 +16,13 @@ class FrameDelay {
   explicit FrameDelay(int frames) : frames_(static_cast<std::uint64_t>(frames)) {}
 
   /// Frames come in their order; one before the last means that the camera has started anew, and
-  /// what is held back of its earlier frames is forgotten.
-  void put(std::uint64_t frame_seq, T value) {
-    if (!held_.empty() && frame_seq < held_.back().first) held_.clear();
+  /// what is held back of its earlier frames is forgotten; returns how many these are.
+  std::size_t put(std::uint64_t frame_seq, T value) {
+    const bool is_anew = !held_.empty() && frame_seq < held_.back().first;
+    const std::size_t forgotten = is_anew ? held_.size() : 0;
+    if (is_anew) held_.clear();
     held_.emplace_back(frame_seq, std::move(value));
+    return forgotten;
   }
 
   /// The oldest that is due now that frame `present_seq` has been taken in; none: no more.

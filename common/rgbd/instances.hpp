@@ -19,6 +19,8 @@ struct Instance {
   float score = 0.0F;      ///< 0..1
   cv::Rect2f box;          ///< pixels
   MotionVerdict motion = MotionVerdict::kUnknown;
+  /// The same in all masks that show this thing; 0 where nobody follows it from mask to mask.
+  std::uint32_t track_id = 0;
 };
 
 /// The instances of one frame. `labels` is a view like RgbdFrame's images.

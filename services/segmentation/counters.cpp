@@ -34,8 +34,10 @@ void SegmentationCounters::add(const SegmentationResult& result) {
 }
 
 nlohmann::json SegmentationCounters::to_json() const {
-  return {{"frames", frames},
+  return {{"taken", taken},
+          {"frames", frames},
           {"failed", failed},
+          {"backlog", backlog()},
           {"left_out", left_out},
           {"preprocess_ms", quantiles(preprocess_ms)},
           {"network_ms", quantiles(network_ms)},

@@ -17,6 +17,16 @@ TEST(RecentValues, ForgetsWhatIsOlderThanAThousandValues) {
   EXPECT_DOUBLE_EQ(values.summary().max, 1.0);
 }
 
+TEST(SegmentationCounters, CountAsBacklogWhatWasTakenAndNeitherAnsweredNorGivenUp) {
+  SegmentationCounters counters;
+  counters.taken = 9;
+  counters.failed = 2;
+  counters.given_up = 3;
+  counters.add({});
+  EXPECT_EQ(counters.backlog(), 3U);
+  EXPECT_EQ(counters.to_json()["backlog"], 3);
+}
+
 TEST(SegmentationCounters, ReportFramesAndMedianTimesOfTheirStages) {
   SegmentationCounters counters;
   for (const std::int64_t ms : {10, 20, 30}) {

@@ -3,6 +3,8 @@
 #include "common/bus/bus_config_file.hpp"
 #include "services/segmentation/config.hpp"
 #include "services/segmentation/node.hpp"
+#include "services/segmentation/remote/relay_node.hpp"
+#include "services/segmentation/remote/worker_node.hpp"
 
 int main(int argc, char** argv) {
   using namespace tsg;
@@ -14,6 +16,12 @@ int main(int argc, char** argv) {
                        const BusConfig bus_config = load_bus_config(context.config);
                        if (context.check_config_only) return;
                        Bus bus(bus_config);
-                       SegmentationNode(config, bus, context).run();
+                       if (config.input == "network") {
+                         RemoteWorkerNode(config, bus, context).run();
+                       } else if (config.provider == "remote") {
+                         RelayNode(config, bus, context).run();
+                       } else {
+                         SegmentationNode(config, bus, context).run();
+                       }
                      });
 }

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "services/segmentation/lib/instance_tracker.hpp"
 #include "services/segmentation/lib/letterbox.hpp"
 #include "services/segmentation/lib/make_decoder.hpp"
 #include "services/segmentation/lib/onnx_model.hpp"
@@ -125,6 +126,25 @@ BENCHMARK(segmentation_solov2_postprocess)
     ->Args({1, 0})
     ->Args({0, 1})
     ->Unit(benchmark::kMillisecond);
+
+/// Eight things that keep their numbers from one mask of a VGA frame to the next.
+void segmentation_tracking(benchmark::State& state) {
+  InstanceSegmentation mask;
+  mask.labels = cv::Mat::zeros(480, 640, CV_8UC1);
+  for (int i = 0; i < 8; ++i) {
+    const cv::Rect box(80 * i, 40 * (i % 3), 120, 300);
+    const cv::Rect inside = box & cv::Rect(0, 0, 640, 480);
+    mask.labels(inside).setTo(i + 1);
+    mask.instances.push_back({.class_name = "person", .score = 0.9F, .box = inside});
+  }
+  InstanceTracker tracker;
+  for ([[maybe_unused]] auto iteration : state) {
+    mask.stamp_ns += 100'000'000;
+    tracker.follow(mask);
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(segmentation_tracking)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace tsg

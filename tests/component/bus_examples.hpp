@@ -43,9 +43,10 @@ inline void fill_example(tsg_InstanceMask& message) {
   message.width = 640;
   message.height = 480;
   message.instance_count = 1;
-  message.instances[0] = {"person", 0.75F, 1.0F, 2.0F, 30.0F, 40.0F, tsg_MOTION_MOVING};
+  message.instances[0] = {"person", 0.75F, 1.0F, 2.0F, 30.0F, 40.0F, tsg_MOTION_MOVING, 77};
   std::string("yolo").copy(message.model_name, sizeof(message.model_name) - 1);
   message.inference_ns = 123;
+  message.input_age_ns = 45;
   std::fill(message.labels, message.labels + 1000, std::uint8_t{1});
 }
 
@@ -58,7 +59,7 @@ inline void fill_example(tsg_Keyframe& message) {
   message.depth_units_per_metre = 5000.0;
   message.has_labels = true;
   message.instance_count = 1;
-  message.instances[0] = {"chair", 0.5F, 1.0F, 2.0F, 30.0F, 40.0F, tsg_MOTION_STATIC};
+  message.instances[0] = {"chair", 0.5F, 1.0F, 2.0F, 30.0F, 40.0F, tsg_MOTION_STATIC, 78};
   std::fill(message.labels, message.labels + 1000, std::uint8_t{1});
   std::fill(message.depth, message.depth + 5000, std::uint16_t{7000});
 }
@@ -80,6 +81,28 @@ inline void fill_example(tsg_KeyframePoses& message) {
       {.id = 2, .stamp_ns = 22, .T_world_camera = {4, 5, 6, 0, 0, 1, 0}}};
   message.header = header();
   lend(kPoses, message.keyframes);
+}
+
+inline void fill_example(tsg_CompressedColour& message) {
+  static const std::vector<std::uint8_t> kBytes{0xFF, 0xD8, 7, 0};
+  message.header = header();
+  message.width = 640;
+  message.height = 480;
+  lend(kBytes, message.jpeg);
+}
+
+inline void fill_example(tsg_CompressedMask& message) {
+  static const std::vector<std::uint8_t> kBytes{0x89, 'P', 'N', 'G', 0};
+  static const std::vector<tsg_Instance> kInstances{
+      {"person", 0.75F, 1.0F, 2.0F, 30.0F, 40.0F, tsg_MOTION_UNKNOWN, 77},
+      {"chair", 0.5F, 3.0F, 4.0F, 50.0F, 60.0F, tsg_MOTION_UNKNOWN, 78}};
+  message.header = header();
+  message.width = 640;
+  message.height = 480;
+  std::string("solo").copy(message.model_name, sizeof(message.model_name) - 1);
+  message.inference_ns = 321;
+  lend(kInstances, message.instances);
+  lend(kBytes, message.labels);
 }
 
 inline void fill_example(tsg_Command& message) {

@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "common/bus/roudi.hpp"
 #include "common/core/error.hpp"
+#include "tests/support/made_networks.hpp"
 #include "tests/support/onnx_writer.hpp"
 #include "tests/support/running_segmentation.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -75,6 +78,27 @@ TEST(SegmentationStart, RejectsANetworkOfAnotherLayoutAndSaysWhichIsKnown) {
                      {"classifier.onnx", "classes float32 [1,3,32,64]", "YOLOv8/11"});
 }
 
+TEST(SegmentationStart, RejectsAnInputThatIsNotOneImage) {
+  OnnxWriter model;
+  model.add_input("image", {3, 32, 64});
+  model.add_output("out", {3, 32, 64});
+  model.add_node("Identity", {"image"}, "out");
+  const TempFolder folder;
+  expect_start_error(with_model(folder.write("flat.onnx", model.bytes())),
+                     ExitCode::kUnsupportedModel,
+                     {"flat.onnx", "not one float32 image [1,3,H,W]", "image float32 [3,32,64]"});
+}
+
+TEST(SegmentationStart, SaysHowToNameClassesWhereTheModelDoesNot) {
+  std::mt19937 random(1);
+  const MadeSolov2 made{.classes = 2, .kernel_length = 3};
+  const std::string network = made.network({}, random).onnx(/*has_names=*/false);
+  const TempFolder folder;
+  expect_start_error(with_model(folder.write("nameless.onnx", network)),
+                     ExitCode::kUnsupportedModel,
+                     {"nameless.onnx", "does not name its classes", "segmentation.model.labels"});
+}
+
 TEST(SegmentationStart, RejectsLabelsThatAreNotThereOrNotThoseOfTheNetwork) {
   const TempFolder folder;
   const auto with_labels = [&](const std::string& labels) {
@@ -95,6 +119,21 @@ TEST(SegmentationStart, SaysHowToGetTheRuntimeWhereItIsMissing) {
   overrides.emplace_back("segmentation.model.runtime_library=/nowhere/libonnxruntime.so.1");
   expect_start_error(overrides, ExitCode::kUnavailable,
                      {"/nowhere/libonnxruntime.so.1", "run deploy/install-deps"});
+}
+
+TEST(SegmentationStart, NamesACpuThatThisHostLacks) {
+  expect_start_error({"segmentation.provider=dataset", "segmentation.cpus=0,1000"},
+                     ExitCode::kConfig, {"segmentation.cpus names CPU 1000", "this host has CPUs"});
+}
+
+TEST(SegmentationStart, RefusesToRunElsewhereThanOnTheGpuThatIsRequired) {
+  const TempFolder folder;
+  std::vector<std::string> overrides = with_model(folder.write("tiny.onnx", TinyYoloSeg{}.bytes()));
+  overrides.emplace_back("segmentation.model.provider_required=true");
+  overrides.emplace_back("segmentation.model.provider=tensorrt");
+  if (std::filesystem::exists("/dev/nvidiactl")) GTEST_SKIP() << "this machine has an NVIDIA GPU";
+  expect_start_error(overrides, ExitCode::kUnavailable,
+                     {"does not run on tensorrt", "segmentation.model.runtime_library"});
 }
 
 TEST(SegmentationStart, NamesADatasetFolderThatIsNotThereOrHasNoMasks) {

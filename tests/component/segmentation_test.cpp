@@ -1,41 +1,27 @@
 // tsg-segmentation as a process of its own, on a real bus.
 
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
-#include "common/bus/command.hpp"
-#include "common/bus/convert.hpp"
-#include "common/bus/diagnostics.hpp"
-#include "common/core/time.hpp"
-#include "tests/support/running_segmentation.hpp"
+#include "tests/component/segmentation_service.hpp"
 #include "tests/support/stop_limit.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tests/support/test_bus.hpp"
 #include "tests/support/tiny_yolo_seg.hpp"
-#include "tests/support/wait.hpp"
 
 namespace tsg::test {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
-
-/// Stamp of frame `seq`, at 10 Hz.
-std::int64_t stamp_ns(std::uint64_t seq) {
-  return 1'700'000'000'000'000'000 + static_cast<std::int64_t>(seq) * 100'000'000;
-}
 
 /// Where the person (id 200) stands in the recorded mask of frame `seq`; the chair is id 7.
 cv::Rect person_of(int seq) { return {30 + seq, 4, 10, 40}; }
@@ -47,61 +33,13 @@ void write_dataset(const TempFolder& folder) {
     "200": {"cls": "person", "name": "walker", "dynamic": true}}})");
   std::filesystem::create_directory(folder / "mask");
   for (const int seq : {1, 2, 4}) {
-    cv::Mat mask(kHeight, kWidth, CV_8UC1, cv::Scalar(0));
+    cv::Mat mask(48, 64, CV_8UC1, cv::Scalar(0));
     mask(cv::Rect(2, 20, 10, 20)).setTo(7);
     mask(person_of(seq)).setTo(200);
     const std::string name = "mask/1700000000." + std::to_string(seq) + "00000.png";
     cv::imwrite(folder / name, mask);
   }
 }
-
-class SegmentationService : public ::testing::Test {
- protected:
-  static std::vector<std::string> dataset(const TempFolder& folder) {
-    return {"segmentation.provider=dataset",
-            "segmentation.dataset.folder=" + folder.path().string()};
-  }
-  std::vector<std::string> model(const TinyYoloSeg& network) {
-    return {"segmentation.provider=model", "segmentation.model.threads=1",
-            "segmentation.model.file=" + folder_.write("tiny.onnx", network.bytes()).string()};
-  }
-
-  /// Whether the service comes to listen for frames, and we for its masks.
-  [[nodiscard]] bool is_working(const RunningSegmentation& service) {
-    return bus_.watch<topics::Instances>(20s) &&
-           eventually(20s, [&] { return service.output().find(" ready\n") != std::string::npos; });
-  }
-
-  /// A black frame.
-  [[nodiscard]] bool send(std::uint64_t seq, cv::Size size = {kWidth, kHeight}) {
-    return bus_.publish<topics::Rgbd>([&](tsg_RgbdFrame& message) {
-      message.header = {seq, stamp_ns(seq), monotonic_ns()};
-      message.intrinsics = {static_cast<std::uint32_t>(size.width),
-                            static_cast<std::uint32_t>(size.height),
-                            50.0,
-                            50.0,
-                            size.width / 2.0,
-                            size.height / 2.0,
-                            {}};
-      message.depth_units_per_metre = 5000.0;
-    });
-  }
-
-  std::optional<Sample<topics::Instances>> mask_of(std::uint64_t seq) {
-    return bus_.wait_for<topics::Instances>(
-        10s, [&](const tsg_InstanceMask& mask) { return mask.header.seq == seq; });
-  }
-
-  nlohmann::json report() {
-    CommandClient client(bus_.bus());
-    const auto reply = client.call("segmentation", "report", "{}", 5s);
-    EXPECT_TRUE(reply.has_value()) << (reply ? "" : reply.error().message);
-    return reply ? nlohmann::json::parse(*reply) : nlohmann::json();
-  }
-
-  TestBus bus_;
-  TempFolder folder_;
-};
 
 TEST_F(SegmentationService, AnswersEachFrameWithItsRecordedMaskThroughSharedMemory) {
   write_dataset(folder_);
@@ -114,12 +52,15 @@ TEST_F(SegmentationService, AnswersEachFrameWithItsRecordedMaskThroughSharedMemo
     EXPECT_TRUE(mask->is_zero_copy());
     EXPECT_STREQ((*mask)->model_name, "dataset");
     EXPECT_GT((*mask)->inference_ns, 0);
+    EXPECT_GT((*mask)->input_age_ns, 0);
     const auto found = view_as_instances(**mask);
     ASSERT_TRUE(found.has_value()) << found.error().message;
     EXPECT_EQ(found->stamp_ns, stamp_ns(seq));
     ASSERT_EQ(found->instances.size(), 2U);
     EXPECT_EQ(found->instances[0].class_name, "chair");
     EXPECT_EQ(found->instances[1].class_name, "person");
+    EXPECT_EQ(found->instances[0].track_id, 7U) << "as in the sequence";
+    EXPECT_EQ(found->instances[1].track_id, 200U);
     EXPECT_EQ(found->instances[1].motion, MotionVerdict::kUnknown);
     const cv::Rect person = person_of(static_cast<int>(seq));
     EXPECT_EQ(cv::countNonZero(found->labels == 2), person.area());
@@ -182,13 +123,11 @@ TEST_F(SegmentationService, WithFaultsPublishesLateMasksThatLackAnInstanceAndWar
   EXPECT_EQ(cv::countNonZero(seen->labels), person.area()) << "the chair is nobody's";
   EXPECT_EQ(report().at("frames"), 1) << "that of frame 4 is held back";
   EXPECT_EQ(report().at("faults"), "late_frames=2, drop_instance_every=1");
-  const auto warns_of_faults = [](const topics::Diagnostics::Message& message) {
-    const auto all = to_diagnostics(message);
-    return all.at(0).name == "segmentation" &&
-           all.at(0).diagnostic.level == DiagnosticLevel::kWarn &&
-           all.at(0).diagnostic.message.find("on purpose") != std::string::npos;
-  };
-  EXPECT_TRUE(bus_.wait_for<topics::Diagnostics>(10s, warns_of_faults).has_value());
+  EXPECT_TRUE(has_diagnostic([](const Diagnostic& diagnostic) {
+    return diagnostic.level == DiagnosticLevel::kWarn &&
+           diagnostic.message.find("on purpose") != std::string::npos &&
+           value_of(diagnostic, "backlog") == "1";
+  }));
 }
 
 TEST_F(SegmentationService, CountsAndReportsWhatItDid) {
@@ -197,25 +136,30 @@ TEST_F(SegmentationService, CountsAndReportsWhatItDid) {
   ASSERT_TRUE(is_working(service)) << service.output();
   ASSERT_TRUE(bus_.watch<topics::Diagnostics>());
   ASSERT_TRUE(send(3));  // withheld: there is no mask of it
-  const auto is_warning = [](const topics::Diagnostics::Message& message) {
-    const auto all = to_diagnostics(message);
-    return all.at(0).name == "segmentation" && all.at(0).diagnostic.level == DiagnosticLevel::kWarn;
-  };
-  EXPECT_TRUE(bus_.wait_for<topics::Diagnostics>(10s, is_warning).has_value());
+  EXPECT_TRUE(has_diagnostic([](const Diagnostic& diagnostic) {
+    return diagnostic.level == DiagnosticLevel::kWarn &&
+           diagnostic.message.find("has no mask for stamp") != std::string::npos &&
+           value_of(diagnostic, "failed") == "1";
+  }));
   ASSERT_TRUE(send(4));
   ASSERT_TRUE(mask_of(4).has_value()) << service.output();
   const nlohmann::json reported = report();
   EXPECT_EQ(reported.at("frames"), 1);
   EXPECT_EQ(reported.at("failed"), 1);
   EXPECT_EQ(reported.at("passed_over"), 0);
+  EXPECT_EQ(reported.at("backlog"), 0);
   EXPECT_EQ(reported.at("provider"), "dataset");
   EXPECT_GT(reported.at("inference_ms").at("p50"), 0.0);
   EXPECT_GT(reported.at("latency_ms").at("p99"), 0.0);
   EXPECT_GT(reported.at("input_age_ms").at("p50"), 0.0);
+  EXPECT_TRUE(has_diagnostic([](const Diagnostic& diagnostic) {
+    return diagnostic.level == DiagnosticLevel::kOk && value_of(diagnostic, "backlog") == "0" &&
+           !value_of(diagnostic, "inference_p99_ms").empty();
+  }));
 }
 
 TEST_F(SegmentationService, RunsANetworkOnFramesOfAnySize) {
-  RunningSegmentation service(model({}));
+  RunningSegmentation service(model(TinyYoloSeg{}.bytes()));
   ASSERT_TRUE(is_working(service)) << service.output();
   std::uint64_t seq = 0;
   for (const cv::Size size : {cv::Size(64, 32), cv::Size(640, 480)}) {
@@ -235,7 +179,7 @@ TEST_F(SegmentationService, RunsANetworkOnFramesOfAnySize) {
 }
 
 TEST_F(SegmentationService, AnswersTheNewestOfABurstAndPassesTheOthersOver) {
-  RunningSegmentation service(model({.slow_layers = 200}));
+  RunningSegmentation service(model(TinyYoloSeg{.slow_layers = 200}.bytes()));
   ASSERT_TRUE(is_working(service)) << service.output();
   ASSERT_TRUE(send(1));
   ASSERT_TRUE(mask_of(1).has_value()) << service.output();
@@ -250,7 +194,7 @@ TEST_F(SegmentationService, AnswersTheNewestOfABurstAndPassesTheOthersOver) {
 }
 
 TEST_F(SegmentationService, StopsWithinTwoSecondsInTheMiddleOfANetwork) {
-  RunningSegmentation service(model({.slow_layers = 6000}));
+  RunningSegmentation service(model(TinyYoloSeg{.slow_layers = 6000}.bytes()));
   ASSERT_TRUE(is_working(service)) << service.output();
   ASSERT_TRUE(send(1));
   const auto early = bus_.wait_for<topics::Instances>(500ms, [](const auto&) { return true; });
@@ -260,10 +204,27 @@ TEST_F(SegmentationService, StopsWithinTwoSecondsInTheMiddleOfANetwork) {
 }
 
 TEST_F(SegmentationService, StopsWithinTwoSecondsWhileItWaitsForFrames) {
-  RunningSegmentation service(model({}));
+  RunningSegmentation service(model(TinyYoloSeg{}.bytes()));
   ASSERT_TRUE(is_working(service)) << service.output();
   service.process().signal(SIGTERM);
   EXPECT_EQ(service.exit_code(kStopLimit), 0) << service.output();
+}
+
+TEST_F(SegmentationService, WorksOnTheCpusThatItIsGiven) {
+  cpu_set_t ours;
+  ASSERT_EQ(::sched_getaffinity(0, sizeof(ours), &ours), 0);
+  int cpu = 0;
+  while (!CPU_ISSET(static_cast<std::size_t>(cpu), &ours)) ++cpu;
+  std::vector<std::string> overrides = model(TinyYoloSeg{}.bytes());
+  overrides.push_back("segmentation.cpus=" + std::to_string(cpu));
+  RunningSegmentation service(overrides);
+  ASSERT_TRUE(is_working(service)) << service.output();
+  ASSERT_TRUE(send(1));
+  ASSERT_TRUE(mask_of(1).has_value()) << service.output();
+  cpu_set_t its;
+  ASSERT_EQ(::sched_getaffinity(service.process().pid(), sizeof(its), &its), 0);
+  EXPECT_EQ(CPU_COUNT(&its), 1);
+  EXPECT_TRUE(CPU_ISSET(static_cast<std::size_t>(cpu), &its));
 }
 
 TEST_F(SegmentationService, WorksAtALowerPriorityThanTracking) {

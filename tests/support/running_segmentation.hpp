@@ -34,7 +34,7 @@ class RunningSegmentation {
   ChildProcess& process() { return process_; }
 
  private:
-  ChildCommand command(const std::vector<std::string>& overrides) const {
+  [[nodiscard]] ChildCommand command(const std::vector<std::string>& overrides) const {
     ChildCommand command{.program = TSG_BIN_DIR "/tsg-segmentation"};
     for (const auto& override_text : overrides) {
       command.arguments.insert(command.arguments.end(), {"--set", override_text});

@@ -8,12 +8,16 @@
 
 namespace tsg::test {
 
+/// What a network does where an image has white in it.
+enum class InWhite { kWorks, kGivesNan, kFails };
+
 /// A network of the YOLO-seg layout for 64 x 32 images, classes "person" and "tv", that finds the
 /// same in every image: a person in the left half, score 0.9 (or whatever `score` is).
 struct TinyYoloSeg {
   float score = 0.9F;
   /// Layers that do nothing but take time, about 1 ms each: exponentials of 3 x 480 x 640 numbers.
   int slow_layers = 0;
+  InWhite in_white = InWhite::kWorks;
 
   static constexpr int kWidth = 64;
   static constexpr int kHeight = 32;
@@ -62,7 +66,35 @@ struct TinyYoloSeg {
       model.add_node("Tanh", {"layer" + std::to_string(i)}, "layer" + std::to_string(i + 1));
     }
     model.add_node("ReduceMax", {"layer" + std::to_string(slow_layers)}, "nothing");
-    model.add_node("Add", {"anchors", "nothing"}, "output0");
+    if (in_white == InWhite::kWorks) {
+      model.add_node("Add", {"anchors", "nothing"}, "output0");
+      return;
+    }
+    model.add_node("Add", {"anchors", "nothing"}, "sound");
+    add_whiteness(model);
+    model.add_node("Add", {"sound", "flaw"}, "output0");
+  }
+
+  /// "flaw": numbers to be added to the anchors, 0 where there is no white.
+  void add_whiteness(OnnxWriter& model) const {
+    const std::vector<float> less_than_white{-0.75F};
+    model.add_constant("less_than_white", {}, less_than_white);
+    model.add_node("ReduceMax", {"images"}, "brightest");
+    model.add_node("Add", {"brightest", "less_than_white"}, "above");
+    model.add_node("Relu", {"above"}, "white");
+    if (in_white == InWhite::kGivesNan) {
+      model.add_node("Neg", {"white"}, "not_white");
+      model.add_node("Sqrt", {"not_white"}, "flaw");
+      return;
+    }
+    // One number for all anchors; two, in white, fit none.
+    const std::vector<float> zeros{0.0F, 0.0F};
+    const std::vector<float> one_of_two{1.0F, 0.0F};
+    model.add_constant("two_zeros", {1, 2, 1}, zeros);
+    model.add_constant("one_of_two", {2}, one_of_two);
+    model.add_node("Add", {"one_of_two", "white"}, "wanted");
+    model.add_node("Greater", {"wanted", "zero"}, "chosen");
+    model.add_node("Compress", {"two_zeros", "chosen"}, "flaw");
   }
 };
 

@@ -22,7 +22,7 @@ Expected<std::unique_ptr<SegmentationProvider>> DatasetProvider::make(
   return std::unique_ptr<SegmentationProvider>(new DatasetProvider(std::move(*truth)));
 }
 
-Expected<SegmentationResult> DatasetProvider::segment(const RgbdFrame& frame) {
+Expected<SegmentationResult> DatasetProvider::segment(const RgbdFrame& frame, cv::Mat& labels) {
   if (is_cancelled_) return make_error(ExitCode::kFailure, "cancelled");
   SegmentationResult result;
   Stopwatch watch;
@@ -38,6 +38,8 @@ Expected<SegmentationResult> DatasetProvider::segment(const RgbdFrame& frame) {
   truth->frame_seq = frame.seq;
   truth->stamp_ns = frame.stamp_ns;
   for (Instance& instance : truth->instances) instance.motion = MotionVerdict::kUnknown;
+  truth->labels.copyTo(labels);
+  truth->labels = labels;
   result.segmentation = std::move(*truth);
   result.times.postprocess_ns = watch.lap_ns();
   return result;

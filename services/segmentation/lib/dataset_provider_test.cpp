@@ -43,7 +43,8 @@ class DatasetProviderTest : public testing::Test {
   Error error_for(const RgbdFrame& frame) {
     auto provider = DatasetProvider::make(folder_.path());
     if (!provider) return provider.error();
-    const auto result = (*provider)->segment(frame);
+    cv::Mat labels;
+    const auto result = (*provider)->segment(frame, labels);
     return result ? Error{ExitCode::kOk, "no error"} : result.error();
   }
 
@@ -54,7 +55,8 @@ TEST_F(DatasetProviderTest, GivesTheMaskOfTheFramesStampWithLabelsFromOne) {
   auto provider = DatasetProvider::make(folder_.path());
   ASSERT_TRUE(provider.has_value()) << provider.error().message;
   EXPECT_EQ((*provider)->name(), "dataset");
-  const auto result = (*provider)->segment(frame_at(kStampNs));
+  cv::Mat labels;
+  const auto result = (*provider)->segment(frame_at(kStampNs), labels);
   ASSERT_TRUE(result.has_value()) << result.error().message;
   const InstanceSegmentation& found = result->segmentation;
   EXPECT_EQ(found.frame_seq, 5U);
@@ -62,6 +64,8 @@ TEST_F(DatasetProviderTest, GivesTheMaskOfTheFramesStampWithLabelsFromOne) {
   ASSERT_EQ(found.instances.size(), 2U);
   EXPECT_EQ(found.instances[0].class_name, "chair");
   EXPECT_EQ(found.instances[1].class_name, "person");
+  EXPECT_EQ(found.instances[0].track_id, 7U);
+  EXPECT_EQ(found.instances[1].track_id, 200U);
   EXPECT_EQ(found.instances[1].box, cv::Rect2f(20, 0, 15, 30));
   EXPECT_FLOAT_EQ(found.instances[1].score, 1.0F);
   EXPECT_EQ(found.labels.at<std::uint8_t>(10, 5), 1);
@@ -72,7 +76,8 @@ TEST_F(DatasetProviderTest, GivesTheMaskOfTheFramesStampWithLabelsFromOne) {
 TEST_F(DatasetProviderTest, DoesNotTellWhoMoves) {
   auto provider = DatasetProvider::make(folder_.path());
   ASSERT_TRUE(provider.has_value());
-  const auto result = (*provider)->segment(frame_at(kStampNs));
+  cv::Mat labels;
+  const auto result = (*provider)->segment(frame_at(kStampNs), labels);
   ASSERT_TRUE(result.has_value());
   for (const Instance& instance : result->segmentation.instances) {
     EXPECT_EQ(instance.motion, MotionVerdict::kUnknown) << instance.class_name;
@@ -101,7 +106,8 @@ TEST_F(DatasetProviderTest, AnswersNoMoreOnceCancelled) {
   auto provider = DatasetProvider::make(folder_.path());
   ASSERT_TRUE(provider.has_value());
   (*provider)->cancel();
-  EXPECT_FALSE((*provider)->segment(frame_at(kStampNs)).has_value());
+  cv::Mat labels;
+  EXPECT_FALSE((*provider)->segment(frame_at(kStampNs), labels).has_value());
 }
 
 TEST(DatasetProvider, NamesAFolderThatIsNotThere) {

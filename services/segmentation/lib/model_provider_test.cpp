@@ -42,7 +42,8 @@ TEST(ModelProvider, AnswersWithTheFramesSeqStampAndSize) {
   EXPECT_EQ((*provider)->name(), "tiny.onnx");
   for (const cv::Size size : {cv::Size(64, 32), cv::Size(640, 320), cv::Size(128, 64)}) {
     const cv::Mat colour(size, CV_8UC3, cv::Scalar::all(0));
-    const auto result = (*provider)->segment(frame_of(colour));
+    cv::Mat labels;
+    const auto result = (*provider)->segment(frame_of(colour), labels);
     ASSERT_TRUE(result.has_value()) << result.error().message;
     const InstanceSegmentation& found = result->segmentation;
     EXPECT_EQ(found.frame_seq, 17U);
@@ -56,12 +57,93 @@ TEST(ModelProvider, AnswersWithTheFramesSeqStampAndSize) {
   }
 }
 
+TEST(ModelProvider, WritesTheMaskIntoTheMemoryThatItIsGiven) {
+  const TempFolder folder;
+  auto provider = make_tiny(folder, {});
+  ASSERT_TRUE(provider.has_value()) << provider.error().message;
+  const cv::Mat colour(320, 640, CV_8UC3, cv::Scalar::all(0));
+  std::vector<std::uint8_t> memory(640 * 320, 99);
+  cv::Mat labels(320, 640, CV_8UC1, memory.data());
+  const auto result = (*provider)->segment(frame_of(colour), labels);
+  ASSERT_TRUE(result.has_value()) << result.error().message;
+  EXPECT_EQ(result->segmentation.labels.data, memory.data());
+  EXPECT_EQ(memory.at(160 * 640 + 100), 1);
+  EXPECT_EQ(memory.at(160 * 640 + 600), 0);
+}
+
+TEST(ModelProvider, GivesAThingTheSameTrackIdInEveryFrame) {
+  const TempFolder folder;
+  auto provider = make_tiny(folder, {});
+  ASSERT_TRUE(provider.has_value()) << provider.error().message;
+  const cv::Mat colour(32, 64, CV_8UC3, cv::Scalar::all(0));
+  std::vector<std::uint32_t> ids;
+  for (int i = 0; i < 3; ++i) {
+    RgbdFrame frame = frame_of(colour);
+    frame.stamp_ns = 100'000'000 * i;
+    cv::Mat labels;
+    ids.push_back((*provider)->segment(frame, labels)->segmentation.instances.at(0).track_id);
+  }
+  EXPECT_NE(ids[0], 0U);
+  EXPECT_EQ(ids, std::vector(3, ids[0]));
+}
+
+TEST(ModelProvider, TellsThatItsFileWasReplacedOrIsGoneAndGoesOn) {
+  const TempFolder folder;
+  auto provider = make_tiny(folder, {});
+  ASSERT_TRUE(provider.has_value()) << provider.error().message;
+  EXPECT_EQ((*provider)->state().problem, "");
+  const cv::Mat colour(32, 64, CV_8UC3, cv::Scalar::all(0));
+  cv::Mat labels;
+  const auto still_works = [&] {
+    return (*provider)->segment(frame_of(colour), labels).has_value();
+  };
+  folder.write("tiny.onnx", "something else");
+  EXPECT_THAT((*provider)->state().problem, HasSubstr("tiny.onnx was replaced"));
+  EXPECT_TRUE(still_works());
+  std::filesystem::remove(folder / "tiny.onnx");
+  EXPECT_THAT((*provider)->state().problem, HasSubstr("tiny.onnx is gone"));
+  EXPECT_TRUE(still_works());
+}
+
+TEST(ModelProvider, RunsOnTheCpuAndSaysSoWhereTheGpuThatItShallRunOnIsNotToBeHad) {
+  const TempFolder folder;
+  for (const std::string gpu : {"cuda", "tensorrt"}) {
+    ModelProviderConfig config{
+        .model = {.file = folder.write("tiny.onnx", TinyYoloSeg{}.bytes()), .provider = gpu},
+        .decoder = {}};
+    auto provider = ModelProvider::make(config);
+    ASSERT_TRUE(provider.has_value()) << provider.error().message;
+    const ProviderState state = (*provider)->state();
+    if (state.problem.empty()) GTEST_SKIP() << "this machine has a GPU for " << gpu;
+    EXPECT_THAT(state.problem, HasSubstr("does not run on " + gpu));
+    EXPECT_THAT(state.values,
+                testing::Contains(std::pair<std::string, std::string>("runs_on", "cpu")));
+    const cv::Mat colour(32, 64, CV_8UC3, cv::Scalar::all(0));
+    cv::Mat labels;
+    EXPECT_TRUE((*provider)->segment(frame_of(colour), labels).has_value());
+    config.model.provider_required = true;
+    const auto refused = ModelProvider::make(config);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ExitCode::kUnavailable);
+    EXPECT_THAT(refused.error().message, HasSubstr("does not run on " + gpu));
+  }
+}
+
+TEST(ModelProvider, BlamesADamagedFileAndNotTheGpuThatItShouldRunOn) {
+  const TempFolder folder;
+  const auto provider = ModelProvider::make(
+      {.model = {.file = folder.write("notes.onnx", "a list"), .provider = "cuda"}, .decoder = {}});
+  ASSERT_FALSE(provider.has_value());
+  EXPECT_EQ(provider.error().code, ExitCode::kBadData);
+}
+
 TEST(ModelProvider, WithholdsTheMaskWhereTheNetworkGivesNaN) {
   const TempFolder folder;
   auto provider = make_tiny(folder, {.score = std::numeric_limits<float>::quiet_NaN()});
   ASSERT_TRUE(provider.has_value()) << provider.error().message;
   const cv::Mat colour(32, 64, CV_8UC3, cv::Scalar::all(0));
-  const auto result = (*provider)->segment(frame_of(colour));
+  cv::Mat labels;
+  const auto result = (*provider)->segment(frame_of(colour), labels);
   ASSERT_FALSE(result.has_value());
   EXPECT_EQ(result.error().code, ExitCode::kInvalidNumber);
 }
@@ -118,7 +200,8 @@ TEST_F(YoloV8n, FindsWhatItsMakersToolsFind) {
   for (const auto& [name, frame] : expected_["frames"].items()) {
     SCOPED_TRACE(name);
     const cv::Mat colour = cv::imread(frames_folder() / name);
-    const auto result = (*provider)->segment(frame_of(colour));
+    cv::Mat labels;
+    const auto result = (*provider)->segment(frame_of(colour), labels);
     ASSERT_TRUE(result.has_value()) << result.error().message;
     const auto& instances = result->segmentation.instances;
     ASSERT_EQ(instances.size(), frame["detections"].size());

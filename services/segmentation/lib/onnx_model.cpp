@@ -5,10 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "services/segmentation/lib/onnx_providers.hpp"
 #include "services/segmentation/lib/onnx_runtime.hpp"
-
-#define ORT_API_MANUAL_INIT
-#include <onnxruntime_cxx_api.h>
 
 namespace tsg {
 
@@ -31,6 +29,7 @@ Ort::SessionOptions session_options(const OnnxModelConfig& config) {
   options.AddConfigEntry("session.intra_op.allow_spinning", "0");
   // Weights stored as int8 are computed with as float32: as fast here, and the same result.
   options.AddConfigEntry("session.disable_quant_qdq", "1");
+  append_provider(config.provider, options);
   return options;
 }
 
@@ -134,15 +133,18 @@ TensorView view_of(const Ort::Value& value) {
 }  // namespace
 
 struct OnnxModel::Impl {
+  /// Throws Ort::Exception where the runtime cannot run the file on config.provider.
   explicit Impl(const OnnxModelConfig& config)
       // Failures come as exceptions, so that nothing is written to stderr behind our back.
       : environment(ORT_LOGGING_LEVEL_FATAL, "tsg"),
         session(environment, config.file.c_str(), session_options(config)),
-        description(describe(session)) {}
+        description(describe(session)),
+        runs_on{.name = config.provider, .why_not_wanted = {}} {}
 
   Ort::Env environment;
   Ort::Session session;
   ModelDescription description;
+  ExecutionProvider runs_on;
   Ort::RunOptions run_options;
   std::vector<BoundTensor> inputs;
   std::vector<BoundTensor> outputs;
@@ -171,6 +173,9 @@ struct OnnxModel::Impl {
 std::vector<std::string> OnnxModelConfig::problems() const {
   std::vector<std::string> found;
   if (threads < 1 || threads > 64) found.emplace_back("threads must be 1 to 64");
+  if (provider != "cpu" && provider != "cuda" && provider != "tensorrt") {
+    found.emplace_back("provider must be cpu, cuda or tensorrt, not '" + provider + "'");
+  }
   return found;
 }
 
@@ -187,9 +192,28 @@ Expected<OnnxModel> OnnxModel::load(const OnnxModelConfig& config) {
   try {
     return OnnxModel(std::make_unique<Impl>(config));
   } catch (const Ort::Exception& failure) {
+    if (config.provider == "cpu") return loading_failed(config.file, failure);
+    return load_on_cpu(config, failure.what());
+  }
+}
+
+/// `why_not` is what the runtime says of the provider that was asked for.
+Expected<OnnxModel> OnnxModel::load_on_cpu(const OnnxModelConfig& config,
+                                           const std::string& why_not) {
+  const std::string problem = provider_failed(config.provider, why_not);
+  OnnxModelConfig on_cpu = config;
+  on_cpu.provider = "cpu";
+  try {
+    auto impl = std::make_unique<Impl>(on_cpu);
+    if (config.provider_required) return make_error(ExitCode::kUnavailable, problem);
+    impl->runs_on.why_not_wanted = problem;
+    return OnnxModel(std::move(impl));
+  } catch (const Ort::Exception& failure) {  // then it was not the provider's fault
     return loading_failed(config.file, failure);
   }
 }
+
+const ExecutionProvider& OnnxModel::execution_provider() const { return impl_->runs_on; }
 
 const ModelDescription& OnnxModel::description() const { return impl_->description; }
 

@@ -16,8 +16,16 @@ struct OnnxModelConfig {
   std::string file = {};             // the .onnx file
   std::string runtime_library = {};  // libonnxruntime.so; empty: where it was found at build time
   int threads = 2;                   // on two cores: the network takes 0.6 x the time of one thread
+  std::string provider = "cpu";      // of the runtime: cpu, cuda or tensorrt
+  bool provider_required = false;  // false: on the CPU, saying so, where the provider is not there
 
   [[nodiscard]] std::vector<std::string> problems() const;
+};
+
+/// What a network is computed by.
+struct ExecutionProvider {
+  std::string name = "cpu";    ///< cpu, cuda or tensorrt
+  std::string why_not_wanted;  ///< where it is another than was asked for: why, and the fix
 };
 
 /// A network in ONNX Runtime, which is loaded when the first model is. The only place that calls
@@ -25,7 +33,8 @@ struct OnnxModelConfig {
 class OnnxModel {
  public:
   /// kMissingInput (no such file), kBadData (not an ONNX file or a damaged one), kUnsupportedModel
-  /// (a network that the runtime does not run) or kUnavailable (no runtime, or too old a one).
+  /// (a network that the runtime does not run) or kUnavailable (no runtime, too old a one, or one
+  /// without the provider that is required).
   static Expected<OnnxModel> load(const OnnxModelConfig& config);
 
   ~OnnxModel();
@@ -35,6 +44,7 @@ class OnnxModel {
   OnnxModel& operator=(const OnnxModel&) = delete;
 
   [[nodiscard]] const ModelDescription& description() const;
+  [[nodiscard]] const ExecutionProvider& execution_provider() const;
 
   /// Makes the memory of all tensors of fixed shape. kUnsupportedModel where an input is not
   /// float32 of fixed shape, or an output is neither float32 nor int64.
@@ -54,6 +64,7 @@ class OnnxModel {
 
  private:
   struct Impl;
+  static Expected<OnnxModel> load_on_cpu(const OnnxModelConfig& config, const std::string& why_not);
   explicit OnnxModel(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

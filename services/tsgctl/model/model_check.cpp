@@ -49,8 +49,9 @@ Expected<ModelCheck> check_model(const ModelProviderConfig& config) {
   cv::RNG random(1);
   random.fill(noise, cv::RNG::UNIFORM, 0, 256);
   const RgbdFrame frame{.seq = 0, .stamp_ns = 0, .camera = {}, .colour = noise, .depth = {}};
-  auto result = (*provider)->segment(frame);
-  if (result) result = (*provider)->segment(frame);  // the first run makes memory as well
+  cv::Mat labels;
+  auto result = (*provider)->segment(frame, labels);
+  if (result) result = (*provider)->segment(frame, labels);  // the first run makes memory as well
   if (!result) {
     return make_error(result.error().code, "the model " + config.model.file +
                                                ", run on noise: " + result.error().message);

@@ -76,7 +76,8 @@ Expected<nlohmann::json> run_on(const fs::path& image, const ModelRun& run, Mode
   const auto bgr = read_colour(image);
   if (!bgr) return tl::unexpected(bgr.error());
   const RgbdFrame frame{.seq = 0, .stamp_ns = 0, .camera = {}, .colour = *bgr, .depth = {}};
-  const auto result = model.segment(frame);
+  cv::Mat labels;
+  const auto result = model.segment(frame, labels);
   if (!result) {
     return make_error(result.error().code, image.string() + ": " + result.error().message);
   }
