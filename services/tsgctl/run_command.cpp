@@ -47,6 +47,7 @@ Examples:
   tsgctl run --input data/walking_xyz --out out
   tsgctl run --input data/walking_xyz --out out --pace lockstep --segmentation dataset
   tsgctl run --input data/fr3_walking --out out --segmentation model --model yolov8n-seg.onnx
+  tsgctl run --input data/desk --out out --model solov2.onnx --labels coco.txt
   tsgctl run --input data/walking_xyz --out out --method tsg
   tsgctl run --input data/moved_chair --out out --debug
   tsgctl run --input data/desk --out out --set slam.features.max_features=800
@@ -73,6 +74,10 @@ void describe(CLI::App& command, RunArguments& arguments) {
       ->type_name("dataset|model|off");
   command.add_option("--model", options.model, "Network for --segmentation model")
       ->type_name("FILE.onnx");
+  command
+      .add_option("--labels", options.labels,
+                  "Names of its classes, one on each line; default: those in FILE.onnx")
+      ->type_name("FILE");
   command.add_option("--load-map", options.load_map, "Start in the map of this file")
       ->type_name("FILE");
   command.add_flag("--localisation-only", options.localisation_only,

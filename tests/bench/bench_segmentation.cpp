@@ -4,6 +4,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -15,8 +17,11 @@
 #include "services/segmentation/lib/letterbox.hpp"
 #include "services/segmentation/lib/make_decoder.hpp"
 #include "services/segmentation/lib/onnx_model.hpp"
+#include "services/segmentation/lib/remote/image_codec.hpp"
 #include "tests/support/made_networks.hpp"
+#include "tests/support/onnx_writer.hpp"
 #include "tests/support/shared_dir.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace tsg {
 namespace {
@@ -37,6 +42,8 @@ class Stages {
 
   void preprocess() { writer_.write(image_, model_.input(0)); }
   void run_network() { throw_on_error(model_.run()); }
+  [[nodiscard]] const cv::Mat& image() const { return image_; }
+  [[nodiscard]] const cv::Mat& labels() const { return labels_; }
   DecodedInstances postprocess() {
     return value_or_throw(decoder_->decode(model_.outputs(), writer_.letterbox(), labels_));
   }
@@ -126,6 +133,106 @@ BENCHMARK(segmentation_solov2_postprocess)
     ->Args({1, 0})
     ->Args({0, 1})
     ->Unit(benchmark::kMillisecond);
+
+/// A network of nothing but 3 x 3 convolutions of 64 channels at a quarter of VGA: what a network
+/// of so many billions of multiply-adds takes at best.
+std::string convolutions(int layers) {
+  constexpr int kChannels = 64;
+  test::OnnxWriter model;
+  const test::OnnxWriter::Shape shape{1, kChannels, 120, 160};
+  model.add_input("layer0", shape);
+  model.add_output("layer" + std::to_string(layers), shape);
+  const std::vector<float> weights(std::size_t{9} * kChannels * kChannels, 0.001F);
+  model.add_constant("weights", {kChannels, kChannels, 3, 3}, weights);
+  for (int i = 0; i < layers; ++i) {
+    model.add_node("Conv", {"layer" + std::to_string(i), "weights"},
+                   "layer" + std::to_string(i + 1));
+  }
+  return model.bytes();
+}
+
+void segmentation_convolutions(benchmark::State& state) {
+  constexpr double kPerLayer = 9.0 * 64 * 64 * 120 * 160;
+  const int layers =
+      static_cast<int>(std::lround(static_cast<double>(state.range(0)) * 1e9 / kPerLayer));
+  const test::TempFolder folder;
+  auto model = value_or_throw(
+      OnnxModel::load({.file = folder.write("convolutions.onnx", convolutions(layers)),
+                       .threads = static_cast<int>(state.range(1))}));
+  throw_on_error(model.allocate());
+  std::ranges::fill(model.input(0), 0.5F);
+  for ([[maybe_unused]] auto iteration : state) throw_on_error(model.run());
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(segmentation_convolutions)
+    ->ArgNames({"billions", "threads"})
+    ->Args({5, 1})
+    ->Args({5, 2})
+    ->Args({12, 2})
+    ->Args({43, 2})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime();
+
+/// A real image and its labels, on their way to another host and back.
+struct Travelling {
+  cv::Mat colour;
+  cv::Mat labels;
+
+  static std::optional<Travelling> load() {
+    auto stages = Stages::load(2);
+    if (!stages) return std::nullopt;
+    stages->preprocess();
+    stages->run_network();
+    (void)stages->postprocess();
+    return Travelling{stages->image().clone(), stages->labels().clone()};
+  }
+};
+
+void remote_encode_colour(benchmark::State& state) {
+  const auto travelling = Travelling::load();
+  if (!travelling) return state.SkipWithError("no model or no image: set TSG_SHARED_DIR");
+  std::size_t bytes = 0;
+  for ([[maybe_unused]] auto iteration : state) {
+    bytes = value_or_throw(encode_colour(travelling->colour, 80)).size();
+  }
+  state.counters["bytes"] = static_cast<double>(bytes);
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(remote_encode_colour)->Unit(benchmark::kMillisecond);
+
+void remote_decode_colour(benchmark::State& state) {
+  const auto travelling = Travelling::load();
+  if (!travelling) return state.SkipWithError("no model or no image: set TSG_SHARED_DIR");
+  const ImageBytes jpeg = value_or_throw(encode_colour(travelling->colour, 80));
+  for ([[maybe_unused]] auto iteration : state) {
+    benchmark::DoNotOptimize(value_or_throw(decode_colour(jpeg, travelling->colour.size())).data);
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(remote_decode_colour)->Unit(benchmark::kMillisecond);
+
+void remote_encode_labels(benchmark::State& state) {
+  const auto travelling = Travelling::load();
+  if (!travelling) return state.SkipWithError("no model or no image: set TSG_SHARED_DIR");
+  std::size_t bytes = 0;
+  for ([[maybe_unused]] auto iteration : state) {
+    bytes = value_or_throw(encode_labels(travelling->labels)).size();
+  }
+  state.counters["bytes"] = static_cast<double>(bytes);
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(remote_encode_labels)->Unit(benchmark::kMillisecond);
+
+void remote_decode_labels(benchmark::State& state) {
+  const auto travelling = Travelling::load();
+  if (!travelling) return state.SkipWithError("no model or no image: set TSG_SHARED_DIR");
+  const ImageBytes png = value_or_throw(encode_labels(travelling->labels));
+  cv::Mat labels(travelling->labels.size(), CV_8UC1);
+  for ([[maybe_unused]] auto iteration : state) throw_on_error(decode_labels(png, 64, labels));
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(remote_decode_labels)->Unit(benchmark::kMillisecond);
 
 /// Eight things that keep their numbers from one mask of a VGA frame to the next.
 void segmentation_tracking(benchmark::State& state) {

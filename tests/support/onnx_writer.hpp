@@ -87,15 +87,23 @@ class OnnxWriter {
     return field(1, name) + field(2, field(1, tensor_type));
   }
   /// ReduceMax shall give a number, not a tensor of the input's rank; Compress works along
-  /// dimension 1.
+  /// dimension 1; Conv keeps the size with kernels of 3 x 3.
   static std::string attributes_of(std::string_view operation) {
     if (operation == "ReduceMax") return attribute("keepdims", 0);
     if (operation == "Compress") return attribute("axis", 1);
+    if (operation == "Conv") return attribute("pads", Shape{1, 1, 1, 1});
     return {};
   }
   static std::string attribute(std::string_view name, std::int64_t value) {
     constexpr std::int64_t kInt = 2;
     return field(5, field(1, name) + field(3, value) + field(20, kInt));
+  }
+
+  static std::string attribute(std::string_view name, const Shape& values) {
+    constexpr std::int64_t kInts = 7;
+    std::string numbers;
+    for (const std::int64_t value : values) numbers += field(8, value);
+    return field(5, field(1, name) + numbers + field(20, kInts));
   }
 
   std::string graph_;

@@ -8,7 +8,7 @@ namespace tsg {
 namespace {
 
 /// Keys that an option of `tsgctl run` decides: setting them as well could only contradict it.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kKeysOfOptions{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kKeysOfOptions{{
     {"camera.source", "--input"},
     {"camera.replay.folder", "--input"},
     {"camera.pace", "--pace"},
@@ -20,6 +20,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kKeysOfO
     {"segmentation.provider", "--segmentation"},
     {"segmentation.dataset.folder", "--input"},
     {"segmentation.model.file", "--model"},
+    {"segmentation.model.labels", "--labels"},
 }};
 
 Expected<void> check_override(const std::string& override_text) {
@@ -59,6 +60,9 @@ std::vector<std::string> segmentation_arguments(const RunOptions& options) {
     arguments.set("segmentation.dataset.folder=" + options.input.string());
   } else {
     arguments.set("segmentation.model.file=" + options.model.string());
+    if (!options.labels.empty()) {
+      arguments.set("segmentation.model.labels=" + options.labels.string());
+    }
   }
   return arguments.take();
 }
@@ -108,6 +112,10 @@ Expected<void> check_run_options(const RunOptions& options) {
   if (options.segmentation != SegmentationSource::kModel && !options.model.empty()) {
     return make_error(ExitCode::kUsage, "--model goes with --segmentation model, not with " +
                                             std::string(to_string(options.segmentation)));
+  }
+  if (options.model.empty() && !options.labels.empty()) {
+    return make_error(ExitCode::kUsage,
+                      "--labels names the classes of a network: add --model FILE.onnx");
   }
   if (options.localisation_only && options.load_map.empty()) {
     return make_error(ExitCode::kUsage, "--localisation-only needs a map: add --load-map FILE");

@@ -33,6 +33,7 @@ struct RunOptions {
   bool localisation_only = false;       ///< in that map, which stays as it is
   std::filesystem::path save_map = {};  ///< where the map goes at the end; empty: nowhere
   std::filesystem::path model;          ///< network file; set exactly with kModel
+  std::filesystem::path labels = {};    ///< names of its classes; empty: those in it
   std::filesystem::path config;         ///< empty: the defaults of the services
   std::vector<std::string> overrides;   ///< "section.key=value", of the user
 };

@@ -79,6 +79,21 @@ TEST(RunPlan, ModelReachesSegmentation) {
       IsSupersetOf({"segmentation.provider=model", "segmentation.model.file=/models/yolo.onnx"}));
 }
 
+TEST(RunPlan, LabelsReachSegmentationAndNeedAModel) {
+  RunOptions options = options_of(SegmentationSource::kModel);
+  EXPECT_THAT(arguments_of(planned(options), "segmentation"),
+              Not(Contains(HasSubstr("segmentation.model.labels"))));
+  options.labels = "/models/coco.txt";
+  EXPECT_THAT(arguments_of(planned(options), "segmentation"),
+              Contains("segmentation.model.labels=/models/coco.txt"));
+  RunOptions without = options_of(SegmentationSource::kOff);
+  without.labels = options.labels;
+  const auto plan = make_run_plan(without, "/bin");
+  ASSERT_FALSE(plan.has_value());
+  EXPECT_EQ(plan.error().code, ExitCode::kUsage);
+  EXPECT_THAT(plan.error().message, HasSubstr("--model FILE"));
+}
+
 TEST(RunPlan, ConfigurationAndOverridesReachEveryService) {
   RunOptions options = options_of(SegmentationSource::kDataset);
   options.config = "/etc/tsg.yaml";
