@@ -10,6 +10,25 @@ void FrameMatches::drop_unmapped() {
   }
 }
 
+void FrameMatches::drop_unfit(const ObservationModel& model, const SE3& T_camera_world) {
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (!slots_[i].matched) continue;
+    const Eigen::Vector3d p_camera = T_camera_world * slots_[i].p_world;
+    const PointObservation seen = model.observe(features_->items[i]);
+    if (p_camera.z() <= 0.0 || !ObservationModel::is_inlier(model.residual(seen, p_camera))) {
+      slots_[i] = Slot{};
+    }
+  }
+}
+
+FrameMatches FrameMatches::of_static() const {
+  FrameMatches matches = *this;
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (features_->items[i].verdict != FeatureVerdict::kStatic) matches.slots_[i] = Slot{};
+  }
+  return matches;
+}
+
 FrameMatches FrameMatches::onto(const Features& left, const std::vector<int>& new_index) const {
   FrameMatches matches(left);
   for (std::size_t i = 0; i < slots_.size(); ++i) {

@@ -20,6 +20,10 @@ class FrameMatches {
   }
   /// Drops matches to points that are not in the map.
   void drop_unmapped();
+  /// Drops those that do not fit the pose.
+  void drop_unfit(const ObservationModel& model, const SE3& T_camera_world);
+  /// Those of features of static classes.
+  [[nodiscard]] FrameMatches of_static() const;
 
   /// The same matches of the features that are left of these: `new_index` has for each feature its
   /// place in `left`, or -1.

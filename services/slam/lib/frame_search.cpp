@@ -23,18 +23,21 @@ struct LastPoint {
   Eigen::Vector3d p_world;
 };
 
-/// Where feature `i` of `last` lies in the world: by the map, else by its depth if `by_depth`.
+/// Where feature `i` of `last` lies in the world: by the map, else by its depth if that is asked
+/// for.
 std::optional<LastPoint> locate(const ObservationModel& model,
                                 const LocalMapSnapshot& map,
                                 const TrackedFrame& last,
                                 std::size_t i,
-                                bool by_depth) {
+                                LastFramePoints which) {
   const SnapshotPoint* point =
       last.points[i] == kNoPoint ? nullptr : map.find_point(last.points[i]);
   const int feature = static_cast<int>(i);
   if (point != nullptr) return LastPoint{feature, point->id, point->position};
   const Feature& item = last.features->items[i];
-  if (!by_depth || !item.has_depth()) return std::nullopt;
+  if (which == LastFramePoints::kMapped || !item.has_depth()) return std::nullopt;
+  const bool is_doubtful = !last.doubtful.empty() && last.doubtful[i];
+  if (which == LastFramePoints::kSeenToStay && is_doubtful) return std::nullopt;
   const Eigen::Vector3d p_camera =
       model.camera().unproject(item.pixel.cast<double>(), 1.0 / item.inverse_depth);
   return LastPoint{feature, kNoPoint, last.T_world_camera * p_camera};
@@ -82,7 +85,7 @@ FrameMatches FrameSearch::match_last_frame(const TrackedFrame& last,
   std::vector<MatchTarget> targets;
   for (std::size_t i = 0; i < last.points.size(); ++i) {
     if (last.features->items[i].verdict > most) continue;
-    const auto point = locate(model_, map_, last, i, which == LastFramePoints::kWithDepth);
+    const auto point = locate(model_, map_, last, i, which);
     if (!point) continue;
     auto target = expect(model_, last, *point, T_camera_world, radius_px);
     if (!target) continue;

@@ -21,7 +21,10 @@ struct TrackedFrame {
 
 /// Which points of the frame before are searched.
 enum class LastFramePoints {
-  kMapped,     ///< those in the map
+  kMapped,  ///< those in the map
+  /// Those and all with a depth that were seen to stand still. What may be a part of something that
+  /// moves would take the camera along from frame to frame.
+  kSeenToStay,
   kWithDepth,  ///< all that have a depth, which carries the pose on where there is no map yet
 };
 

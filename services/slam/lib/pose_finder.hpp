@@ -17,6 +17,9 @@ struct Fix {
   Matrix6d covariance = Matrix6d::Zero();  ///< as in PoseEstimate
   PosePrior prior = {};  ///< by the shape of the scene; without weight where that was not asked
   std::vector<PointId> in_view = {};  ///< points of the map that are in view from there
+  /// The pose by this view alone, before the motion held it, and the covariance of that one.
+  SE3 T_view_world = {};
+  Matrix6d view_covariance = Matrix6d::Zero();
 };
 
 /// What there is to find a frame's pose by. Views: valid during the call.
@@ -56,8 +59,13 @@ class PoseFinder {
                                    const SnapshotKeyframe& keyframe,
                                    const Fix& fix) const;
   [[nodiscard]] bool refine(const PoseQuery& query, Fix& fix) const;
+  [[nodiscard]] PoseEstimate by_what_stays(Fix& fix) const;
+  void hold_by_motion(const PoseQuery& query,
+                      const FrameMatches& all,
+                      PoseEstimate& estimate,
+                      Fix& fix) const;
   [[nodiscard]] bool is_weak(const Fix& fix) const;
-  [[nodiscard]] bool is_certain(const Fix& fix, const PoseEstimate& estimate) const;
+  [[nodiscard]] bool is_certain(const Fix& fix) const;
   void begin(TrackingStage stage) const {
     if (on_stage_) on_stage_(stage);
   }

@@ -105,8 +105,7 @@ struct Tracker::Impl {
   std::int64_t lost_since_ns = 0;
   MapPart part = 0;  ///< that `last` is in
   std::optional<TrackedFrame> last;
-  Matrix6d covariance = Matrix6d::Zero();        ///< of the pose of `last`
-  Vector6d twist_per_second = Vector6d::Zero();  ///< log of T_last_now for one second
+  CameraMotion motion;  ///< until `last`
   KeyframeId next_keyframe = 0;
   std::uint64_t corrections = 0;  ///< of the map that `last` is in
   std::unordered_map<PointId, PointSighting> sightings;
@@ -131,6 +130,7 @@ void Tracker::Impl::start_map(const std::shared_ptr<const Features>& features,
   result.part = part;
   result.reference = next_keyframe;
   filter.note_pose(SE3());
+  motion.start(SE3(), Matrix6d::Zero());
   result.keyframe = make_candidate();
 }
 
@@ -174,7 +174,6 @@ void Tracker::Impl::begin_part(const std::shared_ptr<const Features>& features,
   result.reason.clear();
   result.relocalised = true;
   lost = false;
-  twist_per_second = Vector6d::Zero();
 }
 
 /// Brings the last pose to where mapping has moved its keyframe since.
@@ -184,6 +183,7 @@ void Tracker::Impl::follow_map(const LocalMapSnapshot& map) {
   if (reference == nullptr) return;
   const SE3 T_world_before = last->T_world_camera;
   last->T_world_camera = reference->T_world_camera * last->T_reference_camera;
+  motion.move_world(last->T_world_camera * T_world_before.inverse());
   if (map.corrections == corrections) return;
   corrections = map.corrections;
   filter.move_world(last->T_world_camera * T_world_before.inverse());
@@ -192,7 +192,7 @@ void Tracker::Impl::follow_map(const LocalMapSnapshot& map) {
 SE3 Tracker::Impl::predict(std::int64_t stamp_ns) const {
   if (!last || lost) return last ? last->T_world_camera : SE3();
   const double seconds = to_seconds(stamp_ns - last->features->stamp_ns);
-  return last->T_world_camera * SE3::exp(twist_per_second * seconds);
+  return motion.predict(seconds).T_camera_world.inverse();
 }
 
 PoseQuery Tracker::Impl::query(const Features& features, const LocalMapSnapshot& map) const {
@@ -202,8 +202,7 @@ PoseQuery Tracker::Impl::query(const Features& features, const LocalMapSnapshot&
                   .T_predicted_world = predict(features.stamp_ns).inverse(),
                   .is_lost = lost};
   if (last && !lost) {
-    query.motion = prior_by_motion(query.T_predicted_world, covariance,
-                                   to_seconds(features.stamp_ns - last->features->stamp_ns));
+    query.motion = motion.predict(to_seconds(features.stamp_ns - last->features->stamp_ns));
   }
   return query;
 }
@@ -258,11 +257,12 @@ void Tracker::Impl::accept(const FirstLook& first,
   // Before the first snapshot the first keyframe is where the world is.
   const SE3 T_world_reference = reference == nullptr ? SE3() : reference->T_world_camera;
   now.T_reference_camera = T_world_reference.inverse() * now.T_world_camera;
-  twist_per_second = Vector6d::Zero();
-  if (!lost) {
-    const double seconds = to_seconds(stamp_ns - last->features->stamp_ns);
+  if (lost) {
+    motion.start(fix.T_camera_world, fix.covariance);
+  } else {
     result.T_previous_camera = last->T_world_camera.inverse() * now.T_world_camera;
-    if (seconds > 0.0) twist_per_second = result.T_previous_camera->log() / seconds;
+    motion.add(fix.T_view_world, fix.view_covariance,
+               to_seconds(stamp_ns - last->features->stamp_ns));
   }
   result.relocalised = lost;
   lost = false;
@@ -275,7 +275,6 @@ void Tracker::Impl::accept(const FirstLook& first,
   result.reference = last->reference;
   result.T_reference_camera = last->T_reference_camera;
   result.inliers = fix.inliers;
-  covariance = fix.covariance;
   result.covariance = fix.covariance;
   propose_keyframe(map, fix.inliers, result);
 }

@@ -9,9 +9,11 @@
 namespace tsg {
 namespace {
 
-constexpr double kMinParallax = 0.015;  // radians: a tenth of the depth is uncertain then
-constexpr int kMaxNeighbours = 5;       // matching by looks takes half a millisecond each
-constexpr int kMaxDistance = 50;        // of descriptors: a wrong point stays for a while
+// Radians. A quarter of the depth is uncertain then; but among people little else than far points
+// may be in view, and they hold the rotation.
+constexpr double kMinParallax = 0.008;
+constexpr int kMaxNeighbours = 5;  // matching by looks takes half a millisecond each
+constexpr int kMaxDistance = 50;   // of descriptors: a wrong point stays for a while
 constexpr float kMaxRatio = 0.8F;
 constexpr double kMaxLevelError = 1.5;  // levels that the two sizes differ from what distance does
 

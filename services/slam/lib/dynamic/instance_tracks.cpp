@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "common/core/time.hpp"
@@ -18,9 +19,10 @@ constexpr double kMaxSpeed = 2.5;               // m/s; a faster one is two thin
 constexpr double kSameRadius = 0.4;             // metres: how far a centre jumps between masks
 constexpr std::int64_t kTrailNs = 400'000'000;  // speed over less is noise of the mask's edge
 constexpr std::int64_t kMinTrailNs = 90'000'000;
-constexpr double kMinSpeed = 0.08;   // m/s; slower than the centre of a mask wanders
-constexpr int kMaxMissedMasks = 3;   // networks lose a thing for a mask or two
-constexpr double kMinSupport = 0.4;  // share of a missed thing that is still there
+constexpr double kMinSpeed = 0.08;      // m/s; slower than the centre of a mask wanders
+constexpr int kMaxMissedMasks = 3;      // networks lose a thing for a mask or two
+constexpr double kNearForSensor = 0.8;  // metres; a limb may be nearer, where nothing is measured
+constexpr double kMinSupport = 0.4;     // share of a missed thing that is still there
 
 Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d median;
@@ -44,6 +46,23 @@ void note_place(InstanceTrack& track, const Eigen::Vector3d& centre) {
   if (span_ns < kMinTrailNs) return;
   const Eigen::Vector3d v_world = (centre - track.trail.front().centre) / to_seconds(span_ns);
   if (v_world.norm() >= kMinSpeed && v_world.norm() <= kMaxSpeed) track.v_world = v_world;
+}
+
+/// Whether a point that is expected at `depth` may be what the sensor sees there (metres, 0 =
+/// nothing). Walls are beyond its range more often than people are too dark for it: without a depth
+/// what moves is not there, unless it has come too close. Of what has stood still for long nobody
+/// knows how it came: rather drop a feature there.
+bool may_be_at(double depth, double seen, double tolerance_m, bool moves) {
+  if (seen > 0.0) return std::abs(seen - depth) <= tolerance_m;
+  return !moves || depth < kNearForSensor;
+}
+
+/// The sensor misses parts of hair and of dark cloth.
+void close_holes(const cv::Mat& depth, cv::Mat& marked) {
+  static const cv::Mat kHole = cv::getStructuringElement(cv::MORPH_RECT, {5, 5});
+  cv::Mat closed;
+  cv::morphologyEx(marked, closed, cv::MORPH_CLOSE, kHole);
+  marked.setTo(255, closed & (depth <= 0.0));
 }
 
 /// Where nothing else is marked yet.
@@ -77,6 +96,9 @@ void InstanceTracks::take_in(const InstanceSegmentation& mask,
     follow(tracks_[i], std::move(seen[label]));
   }
   drop_lost(frame, T_world_camera);
+  cv::Mat things = cv::Mat::zeros(frame.depth.size(), CV_8UC1);
+  mark_exact(mask, frame.depth, things);
+  background_.note(frame.depth, things, T_world_camera);
 }
 
 /// What the mask shows of things that may move, by label.
@@ -188,12 +210,13 @@ cv::Mat InstanceTracks::locate(const PastFrame& frame,
   cv::Mat located = cv::Mat::zeros(camera_.height, camera_.width, CV_8UC1);
   if (mask != nullptr) mark_exact(*mask, frame.depth, located);
   const SE3 T_camera_world = T_world_camera.inverse();
+  const cv::Mat background = background_.find(camera_, frame.depth, T_world_camera);
   // A mask knows better where a thing ends, so that what has a name comes first.
   for (const bool named : {true, false}) {
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       if (tracks_[i].is_named() != named) continue;
       if (mask != nullptr && named && tracks_[i].missed_masks == 0) continue;
-      mark_carried(i, frame, T_camera_world, located);
+      mark_carried(i, frame, T_camera_world, background, located);
     }
   }
   return located;
@@ -225,33 +248,41 @@ void InstanceTracks::mark_exact(const InstanceSegmentation& mask,
 void InstanceTracks::mark_carried(std::size_t i,
                                   const PastFrame& frame,
                                   const SE3& T_camera_world,
+                                  const cv::Mat& background,
                                   cv::Mat& located) const {
   const InstanceTrack& track = tracks_[i];
   const double age_s = to_seconds(frame.stamp_ns - track.stamp_ns);
   const bool spreads = track.is_named() && track.is_moving();
   const double reach_m = spreads ? config_.max_speed_mps * age_s : 0.0;
   const double tolerance_m = config_.depth_tolerance_m + reach_m;
+  cv::Mat free = frame.depth;  // to be taken by what the latest mask shows
+  if (track.is_named() && track.missed_masks == 0) {
+    free = frame.depth.clone();
+    free.setTo(0.0, background);
+  }
   cv::Mat marked = cv::Mat::zeros(located.size(), CV_8UC1);
   std::vector<double> depths;
   for_each_cell(track, frame.stamp_ns, T_camera_world, [&](const cv::Point& cell, double depth) {
     depths.push_back(depth);
-    // Without a depth there the sensor cannot tell: rather drop a feature than keep a moving one.
-    const double seen = frame.depth.at<float>(cell);
-    if (seen > 0.0 && std::abs(seen - depth) > tolerance_m) return;
+    const float seen = frame.depth.at<float>(cell);
+    const bool is_background = seen > 0.0F && free.at<float>(cell) <= 0.0F;
+    if (is_background || !may_be_at(depth, seen, tolerance_m, spreads)) return;
     marked.at<std::uint8_t>(cell) = 255;
   });
   if (depths.empty()) return;
   const DepthRange range = usual_range(depths);
   const int reach = static_cast<int>(std::lround(reach_m * camera_.fx / range.nearest));
-  grow_over_surface(frame.depth,
+  grow_over_surface(free,
                     {.nearest = static_cast<float>(range.nearest - tolerance_m),
                      .farthest = static_cast<float>(range.farthest + tolerance_m),
                      .steps = spreads ? std::max(reach, kEdgeCells) : 1},
                     marked);
+  if (spreads) close_holes(frame.depth, marked);
   add_region(marked, i, located);
 }
 
 void InstanceTracks::move_world(const SE3& T_moved_world) {
+  background_.move_world(T_moved_world);
   for (InstanceTrack& track : tracks_) {
     for (Eigen::Vector3d& point : track.points) point = T_moved_world * point;
     for (InstanceTrack::Place& place : track.trail) place.centre = T_moved_world * place.centre;

@@ -10,6 +10,7 @@
 #include "common/geometry/camera_model.hpp"
 #include "common/geometry/se3.hpp"
 #include "common/rgbd/instances.hpp"
+#include "services/slam/lib/dynamic/known_background.hpp"
 #include "services/slam/lib/dynamic/motion_evidence.hpp"
 #include "services/slam/lib/dynamic/past_frames.hpp"
 #include "services/slam/lib/slam_config.hpp"
@@ -71,9 +72,13 @@ class InstanceTracks {
   void add_evidence(std::size_t i, const MotionCounts& counts) { tracks_[i].evidence.add(counts); }
 
   void move_world(const SE3& T_moved_world);
-  void clear() { tracks_.clear(); }
+  void clear() {
+    tracks_.clear();
+    background_.clear();
+  }
   /// There are no masks any more.
   void drop_named() {
+    background_.clear();
     std::erase_if(tracks_, [](const InstanceTrack& track) { return track.is_named(); });
   }
 
@@ -108,11 +113,13 @@ class InstanceTracks {
   void mark_carried(std::size_t i,
                     const PastFrame& frame,
                     const SE3& T_camera_world,
+                    const cv::Mat& background,
                     cv::Mat& located) const;
 
   DynamicFilterConfig config_;
   CameraModel camera_;  ///< of cells
   std::vector<InstanceTrack> tracks_;
+  KnownBackground background_;
   std::vector<int> track_of_label_;  ///< of the latest mask: index in tracks_, or -1
   int next_id_ = 1;
 };

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/imgproc.hpp>
+
 #include "services/slam/lib/dynamic/depth_cells.hpp"
 #include "services/slam/lib/synthetic_scene.hpp"
 
@@ -160,6 +162,43 @@ TEST_F(InstanceTracksTest, DropsTheUnnamedWhenItIsGone) {
   look();
   tracks_.drop_unnamed(now_, SE3());
   EXPECT_TRUE(tracks_.tracks().empty());
+}
+
+/// The depth of the wall and of the board's is within what belongs to one surface.
+TEST_F(InstanceTracksTest, KeepsTheWallThatAPersonStandsAgainstWhenTheMaskIsLate) {
+  scene_.panel(0).z = 2.06;
+  look();
+  take_in({"person"});
+  look(kSecond / 3);
+  const cv::Mat located = tracks_.locate(now_, SE3(), nullptr) == 1;
+  EXPECT_GT(cv::countNonZero(located & board_cells()), 0.95 * cv::countNonZero(board_cells()));
+  cv::Mat rim;
+  cv::dilate(board_cells(), rim, cv::Mat(), {-1, -1}, 6);  // of 33 that it may have moved
+  EXPECT_EQ(cv::countNonZero(located & ~rim), 0);
+}
+
+TEST_F(InstanceTracksTest, DoesNotLookForAPersonWhereTheSensorSeesNothing) {
+  look();
+  take_in({"person"});
+  scene_.panel(1) = board(0.05);
+  scene_.panel(0).z = 50.0;
+  look(kSecond / 3);
+  now_.depth.setTo(0.0, ~board_cells());
+  const cv::Mat located = tracks_.locate(now_, SE3(), nullptr) == 1;
+  EXPECT_GT(cv::countNonZero(located & board_cells()), 0.5 * cv::countNonZero(board_cells()))
+      << "0.3 m on";
+  EXPECT_EQ(cv::countNonZero(located & ~board_cells()), 0);
+}
+
+TEST_F(InstanceTracksTest, FillsWhatTheSensorMissesOfAPerson) {
+  look();
+  take_in({"person"});
+  look();
+  const cv::Mat board = board_cells();
+  const cv::Rect hair(cv::boundingRect(board).tl() + cv::Point(5, 5), cv::Size(3, 3));
+  now_.depth(hair) = 0.0;
+  const cv::Mat located = tracks_.locate(now_, SE3(), nullptr) == 1;
+  EXPECT_EQ(cv::countNonZero(located(hair)), hair.area());
 }
 
 }  // namespace
