@@ -74,5 +74,15 @@ TEST_F(DynamicAccuracy, BehindAChairThatIsPushedAndStandsAndIsPushedAgain) {
   expect_to_cope(0.012);
 }
 
+/// For seconds people cover more than six tenths of the view: half the resolution would leave too
+/// little of the rest.
+TEST_F(DynamicAccuracy, InACrowd) {
+  render({.name = "crowd", .to_s = 16.0, .width = 640, .height = 480});
+  expect_to_cope(0.015);
+  MaskFaults rare;
+  rare.every_frames = 10;
+  EXPECT_LE(follow(DynamicMethod::kFull, {.faults = rare}).ate_m, 0.02);
+}
+
 }  // namespace
 }  // namespace tsg

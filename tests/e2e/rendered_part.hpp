@@ -8,18 +8,21 @@
 
 namespace tsg::test {
 
-/// A part of a shipped scene, rendered small (320x240), as rendering takes most of a test's time.
+/// A part of a shipped scene, rendered small unless told otherwise, as rendering takes most of a
+/// test's time.
 struct ScenePart {
   std::string name;
   double from_s = 0.0;
   double to_s = 0.0;
   double rate_hz = 30.0;
+  int width = 320;
+  int height = 240;
 };
 
 /// Writes the part as a sequence with true masks into `folder`. Throws FatalError.
 inline void render_part(const ScenePart& part, const std::filesystem::path& folder) {
   auto scene = value_or_throw(load_scene(TSG_SOURCE_DIR "/config/scenes/" + part.name + ".yaml"));
-  scene.sensor.camera = scene.sensor.camera.resized(320, 240);
+  scene.sensor.camera = scene.sensor.camera.resized(part.width, part.height);
   scene.sensor.rate_hz = part.rate_hz;
   auto simulator = value_or_throw(simulation::Simulator::build(scene));
   auto writer = value_or_throw(SequenceWriter::open(folder, scene.sensor, simulator.instances()));

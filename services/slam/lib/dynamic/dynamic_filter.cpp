@@ -90,7 +90,7 @@ cv::Mat DynamicFilter::judge_by_place(const RgbdFrame& frame,
   if (!uses_mask_ || take_in(*mask, T_world_camera)) {
     if (tracks_.tracks().empty()) return {};
     const bool is_exact = uses_mask_ && mask->frame_seq == frame.seq;
-    located_ = tracks_.locate(past_.now(), T_world_camera, is_exact ? mask : nullptr);
+    located_ = tracks_.locate(past_.now(), T_world_camera, is_exact);
     return by_place(is_exact ? mask : nullptr, frame.colour.size());
   }
   // Nobody knows from where that mask was seen: it is believed as it is, with room to move.

@@ -96,9 +96,8 @@ void InstanceTracks::take_in(const InstanceSegmentation& mask,
     follow(tracks_[i], std::move(seen[label]));
   }
   drop_lost(frame, T_world_camera);
-  cv::Mat things = cv::Mat::zeros(frame.depth.size(), CV_8UC1);
-  mark_exact(mask, frame.depth, things);
-  background_.note(frame.depth, things, T_world_camera);
+  located_by_mask_ = mark_exact(mask, frame.depth);
+  background_.note(frame.depth, located_by_mask_, T_world_camera);
 }
 
 /// What the mask shows of things that may move, by label.
@@ -206,25 +205,29 @@ void InstanceTracks::for_each_cell(const InstanceTrack& track,
 
 cv::Mat InstanceTracks::locate(const PastFrame& frame,
                                const SE3& T_world_camera,
-                               const InstanceSegmentation* mask) const {
-  cv::Mat located = cv::Mat::zeros(camera_.height, camera_.width, CV_8UC1);
-  if (mask != nullptr) mark_exact(*mask, frame.depth, located);
+                               bool is_of_mask) const {
+  cv::Mat located;
+  cv::Mat background;
+  if (is_of_mask) {
+    located = located_by_mask_.clone();
+  } else {
+    located = cv::Mat::zeros(camera_.height, camera_.width, CV_8UC1);
+    background = background_.find(camera_, frame.depth, T_world_camera);
+  }
   const SE3 T_camera_world = T_world_camera.inverse();
-  const cv::Mat background = background_.find(camera_, frame.depth, T_world_camera);
   // A mask knows better where a thing ends, so that what has a name comes first.
   for (const bool named : {true, false}) {
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       if (tracks_[i].is_named() != named) continue;
-      if (mask != nullptr && named && tracks_[i].missed_masks == 0) continue;
+      if (is_of_mask && named && tracks_[i].missed_masks == 0) continue;
       mark_carried(i, frame, T_camera_world, background, located);
     }
   }
   return located;
 }
 
-void InstanceTracks::mark_exact(const InstanceSegmentation& mask,
-                                const cv::Mat& depth,
-                                cv::Mat& located) const {
+cv::Mat InstanceTracks::mark_exact(const InstanceSegmentation& mask, const cv::Mat& depth) const {
+  cv::Mat located = cv::Mat::zeros(camera_.height, camera_.width, CV_8UC1);
   std::vector<std::vector<double>> depths(tracks_.size());
   for (int y = 0; y < located.rows; ++y) {
     for (int x = 0; x < located.cols; ++x) {
@@ -243,6 +246,7 @@ void InstanceTracks::mark_exact(const InstanceSegmentation& mask,
     complete_body(depth, usual_range(depths[i]), config_.depth_tolerance_m, marked);
     add_region(marked, i, located);
   }
+  return located;
 }
 
 void InstanceTracks::mark_carried(std::size_t i,

@@ -61,11 +61,11 @@ class InstanceTracks {
   /// Drops what has no name and is gone, or has stood still for long.
   void drop_unnamed(const PastFrame& frame, const SE3& T_world_camera);
 
-  /// Where each is in a frame: CV_8UC1 of cells, i + 1 for tracks()[i], 0 elsewhere. `mask` is the
-  /// one last taken in where it belongs to this very frame, else null.
+  /// Where each is in a frame: CV_8UC1 of cells, i + 1 for tracks()[i], 0 elsewhere.
+  /// `is_of_mask`: the mask that was last taken in belongs to this very frame.
   [[nodiscard]] cv::Mat locate(const PastFrame& frame,
                                const SE3& T_world_camera,
-                               const InstanceSegmentation* mask) const;
+                               bool is_of_mask) const;
 
   [[nodiscard]] const std::vector<InstanceTrack>& tracks() const { return tracks_; }
   /// Adds what a frame says of tracks()[i].
@@ -109,7 +109,7 @@ class InstanceTracks {
                      std::int64_t stamp_ns,
                      const SE3& T_camera_world,
                      const Visit& visit) const;
-  void mark_exact(const InstanceSegmentation& mask, const cv::Mat& depth, cv::Mat& located) const;
+  [[nodiscard]] cv::Mat mark_exact(const InstanceSegmentation& mask, const cv::Mat& depth) const;
   void mark_carried(std::size_t i,
                     const PastFrame& frame,
                     const SE3& T_camera_world,
@@ -119,6 +119,7 @@ class InstanceTracks {
   DynamicFilterConfig config_;
   CameraModel camera_;  ///< of cells
   std::vector<InstanceTrack> tracks_;
+  cv::Mat located_by_mask_;  ///< what locate() gives for the latest mask's own frame
   KnownBackground background_;
   std::vector<int> track_of_label_;  ///< of the latest mask: index in tracks_, or -1
   int next_id_ = 1;

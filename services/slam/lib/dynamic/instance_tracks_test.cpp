@@ -58,7 +58,7 @@ TEST_F(InstanceTracksTest, CarriesWhatAMaskMissesForSomeMasksOnly) {
     miss();
     ASSERT_EQ(tracks_.tracks().size(), 1U);
     EXPECT_EQ(tracks_.tracks()[0].missed_masks, missed);
-    const cv::Mat on_board = (tracks_.locate(now_, SE3(), nullptr) == 1) & board_cells();
+    const cv::Mat on_board = (tracks_.locate(now_, SE3(), false) == 1) & board_cells();
     EXPECT_GT(cv::countNonZero(on_board), 0.95 * cv::countNonZero(board_cells()));
   }
   look();
@@ -121,7 +121,7 @@ TEST_F(InstanceTracksTest, FollowsTheUnnamedAtRestOnceItSurelyMoved) {
   look(10 * kSecond);
   tracks_.drop_unnamed(now_, SE3());
   ASSERT_EQ(tracks_.tracks().size(), 1U);
-  const cv::Mat located = tracks_.locate(now_, SE3(), nullptr) == 1;
+  const cv::Mat located = tracks_.locate(now_, SE3(), false) == 1;
   EXPECT_GT(cv::countNonZero(located & board_cells()), 0.95 * cv::countNonZero(board_cells()));
   EXPECT_EQ(cv::countNonZero(located & ~board_cells()), 0);
   look(11 * kSecond);  // furniture by now
@@ -137,7 +137,7 @@ TEST_F(InstanceTracksTest, GivesPlacesToWhatHasANameFirst) {
   ASSERT_EQ(tracks_.tracks().size(), 2U);
   ASSERT_FALSE(tracks_.tracks()[0].is_named());
   ASSERT_TRUE(tracks_.tracks()[1].is_named());
-  const cv::Mat located = tracks_.locate(now_, SE3(), nullptr);
+  const cv::Mat located = tracks_.locate(now_, SE3(), false);
   EXPECT_GT(cv::countNonZero((located == 2) & board_cells()),
             0.95 * cv::countNonZero(board_cells()));
   EXPECT_EQ(cv::countNonZero(located == 1), 0);
@@ -170,7 +170,7 @@ TEST_F(InstanceTracksTest, KeepsTheWallThatAPersonStandsAgainstWhenTheMaskIsLate
   look();
   take_in({"person"});
   look(kSecond / 3);
-  const cv::Mat located = tracks_.locate(now_, SE3(), nullptr) == 1;
+  const cv::Mat located = tracks_.locate(now_, SE3(), false) == 1;
   EXPECT_GT(cv::countNonZero(located & board_cells()), 0.95 * cv::countNonZero(board_cells()));
   cv::Mat rim;
   cv::dilate(board_cells(), rim, cv::Mat(), {-1, -1}, 6);  // of 33 that it may have moved
@@ -184,7 +184,7 @@ TEST_F(InstanceTracksTest, DoesNotLookForAPersonWhereTheSensorSeesNothing) {
   scene_.panel(0).z = 50.0;
   look(kSecond / 3);
   now_.depth.setTo(0.0, ~board_cells());
-  const cv::Mat located = tracks_.locate(now_, SE3(), nullptr) == 1;
+  const cv::Mat located = tracks_.locate(now_, SE3(), false) == 1;
   EXPECT_GT(cv::countNonZero(located & board_cells()), 0.5 * cv::countNonZero(board_cells()))
       << "0.3 m on";
   EXPECT_EQ(cv::countNonZero(located & ~board_cells()), 0);
@@ -197,7 +197,7 @@ TEST_F(InstanceTracksTest, FillsWhatTheSensorMissesOfAPerson) {
   const cv::Mat board = board_cells();
   const cv::Rect hair(cv::boundingRect(board).tl() + cv::Point(5, 5), cv::Size(3, 3));
   now_.depth(hair) = 0.0;
-  const cv::Mat located = tracks_.locate(now_, SE3(), nullptr) == 1;
+  const cv::Mat located = tracks_.locate(now_, SE3(), false) == 1;
   EXPECT_EQ(cv::countNonZero(located(hair)), hair.area());
 }
 
