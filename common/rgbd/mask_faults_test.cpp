@@ -191,7 +191,7 @@ TEST(FrameDelay, WithoutDelayAllIsDueAtOnce) {
 TEST(FrameDelay, ForgetsWhatItHoldsWhenTheCameraStartsAnew) {
   FrameDelay<char> delay(2);
   delay.put(100, 'a');
-  delay.put(0, 'b');
+  EXPECT_EQ(delay.put(0, 'b'), 1U) << "frame 100's";
   EXPECT_EQ(delay.take_due(2), 'b');
   EXPECT_EQ(delay.take_due(102), std::nullopt);
 }
