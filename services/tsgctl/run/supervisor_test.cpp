@@ -6,6 +6,8 @@
 #include <csignal>
 #include <fstream>
 
+#include "tests/support/wait.hpp"
+
 namespace tsg {
 namespace {
 
@@ -101,8 +103,11 @@ TEST_F(SupervisorTest, CameraMayFinishOthersMayNot) {
 }
 
 TEST_F(SupervisorTest, StopAllKillsWhatIgnoresTermAndKeepsToItsBudget) {
-  supervisor_.start(script("slam", "trap '' TERM; while :; do sleep 1; done"));
+  const auto deaf = folder_ / "deaf";
+  supervisor_.start(
+      script("slam", "trap '' TERM; : >'" + deaf.string() + "'; while :; do sleep 1; done"));
   supervisor_.start(script("camera", "sleep 60"));
+  ASSERT_TRUE(test::eventually(kLong, [&] { return std::filesystem::exists(deaf); }));
   const auto start = std::chrono::steady_clock::now();
   supervisor_.stop_all("camera", milliseconds(500));
   EXPECT_LT(std::chrono::steady_clock::now() - start, milliseconds(1500));
