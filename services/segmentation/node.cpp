@@ -137,6 +137,7 @@ Expected<void> SegmentationNode::publish(const Answer& answer, Loan<topics::Inst
   provider_->name().copy(message.model_name, sizeof(message.model_name) - 1);
   message.inference_ns = answer.result.times.total_ns();
   message.input_age_ns = answer.input_age_ns;
+  settle_readers(0, kNoWait);  // whoever has come since the loan was taken
   if (auto published = masks_.publish(std::move(loan)); !published) return published;
   counters_.add(answer.result);
   counters_.latency_ms.add(to_milliseconds(monotonic_ns() - answer.header.publish_monotonic_ns));

@@ -140,6 +140,32 @@ TEST_F(RemoteSegmentation, StopsBothWithinTwoSeconds) {
   EXPECT_EQ(far.exit_code(kStopLimit), 0) << far.output();
 }
 
+TEST_F(RemoteSegmentation, TakesNoMaskThatIsNotOneOfItsFrames) {
+  RunningSegmentation near(relay());
+  ASSERT_TRUE(is_working(near)) << near.output();
+  ASSERT_TRUE(bus_.watch<topics::RemoteColour>(10s));
+  ASSERT_TRUE(eventually(10s, [&] { return send(7) && report().at("taken") > 0; }))
+      << near.output();
+  const auto frame = bus_.subscriber<topics::RemoteColour>().take({}, 5s);
+  ASSERT_TRUE(frame.has_value());
+  const std::vector<std::uint8_t> nonsense{1, 2, 3};
+  const auto answer = [&](std::int64_t later_ns, std::uint32_t wider) {
+    return bus_.publish<topics::RemoteMask>([&](tsg_CompressedMask& message) {
+      message.header = (*frame)->header;
+      message.header.publish_monotonic_ns += later_ns;
+      message.width = (*frame)->width + wider;
+      message.height = (*frame)->height;
+      lend(nonsense, message.labels);
+    });
+  };
+  ASSERT_TRUE(answer(1, 0));  // of another robot: passed over
+  ASSERT_TRUE(answer(0, 1));
+  EXPECT_TRUE(says(near, "not of its frame's size")) << near.output();
+  EXPECT_EQ(report().at("failed"), 1);
+  EXPECT_EQ(report().at("frames"), 0);
+  EXPECT_FALSE(bus_.subscriber<topics::Instances>().try_take().has_value());
+}
+
 TEST_F(RemoteSegmentation, AnswersFramesOnlyThatShowWhatTheySay) {
   RunningSegmentation far(worker());
   ASSERT_TRUE(bus_.watch<topics::RemoteMask>(20s)) << far.output();

@@ -91,6 +91,8 @@ void RelayNode::relay(const tsg_RgbdFrame& message) {
 Expected<void> RelayNode::send(const tsg_RgbdFrame& message) {
   SentFrame sent{.seq = message.header.seq,
                  .stamp_ns = message.header.stamp_ns,
+                 .width = message.intrinsics.width,
+                 .height = message.intrinsics.height,
                  .published_ns = message.header.publish_monotonic_ns,
                  .taken_ns = monotonic_ns()};
   const auto frame = view_as_frame(message);
@@ -100,15 +102,20 @@ Expected<void> RelayNode::send(const tsg_RgbdFrame& message) {
   sent.sent_ns = monotonic_ns();
   sent.compressing_ns = sent.sent_ns - sent.taken_ns;
   tsg_CompressedColour colour{.header = {sent.seq, sent.stamp_ns, sent.sent_ns},
-                              .width = message.intrinsics.width,
-                              .height = message.intrinsics.height,
+                              .width = sent.width,
+                              .height = sent.height,
                               .jpeg = {}};
   lend(*jpeg, colour.jpeg);
   {
     const std::scoped_lock lock(mutex_);  // before it is sent: the answer may be quick
     counters_.given_up += under_way_.add(sent);
   }
-  return colours_.publish(colour);
+  auto published = colours_.publish(colour);
+  if (!published) {
+    const std::scoped_lock lock(mutex_);
+    under_way_.remove(sent.seq, sent.sent_ns);
+  }
+  return published;
 }
 
 /// Masks come when they do, not when frames do, so they are waited for in a thread of their own.
@@ -133,9 +140,10 @@ void RelayNode::return_masks(const std::stop_token& stop) {
 
 Expected<void> RelayNode::publish(const tsg_CompressedMask& answer, const SentFrame& frame) {
   Stopwatch watch;
-  if (const std::uint64_t pixels = std::uint64_t{answer.width} * answer.height;
-      pixels == 0 || pixels > tsg_MAX_PIXELS) {
-    return make_error(ExitCode::kBadData, "a mask came back with an impossible size");
+  if (answer.width != frame.width || answer.height != frame.height) {
+    return make_error(ExitCode::kBadData,
+                      "a mask came back that is not of its frame's size; both "
+                      "hosts must run the same version of tsg-segmentation");
   }
   auto loan = loan_for_mask();
   if (!loan) return tl::unexpected(loan.error());
@@ -143,7 +151,7 @@ Expected<void> RelayNode::publish(const tsg_CompressedMask& answer, const SentFr
   InstanceSegmentation mask{
       .frame_seq = frame.seq,
       .stamp_ns = frame.stamp_ns,
-      .labels = cv::Mat(static_cast<int>(answer.height), static_cast<int>(answer.width), CV_8UC1,
+      .labels = cv::Mat(static_cast<int>(frame.height), static_cast<int>(frame.width), CV_8UC1,
                         message.labels),
       .instances = instances_of(answer)};
   auto decoded = decode_labels(elements(answer.labels), mask.instances.size(), mask.labels);

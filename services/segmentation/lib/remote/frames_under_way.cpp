@@ -17,11 +17,19 @@ std::size_t FramesUnderWay::add(const SentFrame& frame) {
   return 1;
 }
 
-std::optional<FramesUnderWay::Answered> FramesUnderWay::take(std::uint64_t seq,
-                                                             std::int64_t sent_ns) {
-  const auto found = std::find_if(frames_.begin(), frames_.end(), [&](const SentFrame& frame) {
+std::deque<SentFrame>::iterator FramesUnderWay::find(std::uint64_t seq, std::int64_t sent_ns) {
+  return std::find_if(frames_.begin(), frames_.end(), [&](const SentFrame& frame) {
     return frame.seq == seq && frame.sent_ns == sent_ns;
   });
+}
+
+void FramesUnderWay::remove(std::uint64_t seq, std::int64_t sent_ns) {
+  if (const auto found = find(seq, sent_ns); found != frames_.end()) frames_.erase(found);
+}
+
+std::optional<FramesUnderWay::Answered> FramesUnderWay::take(std::uint64_t seq,
+                                                             std::int64_t sent_ns) {
+  const auto found = find(seq, sent_ns);
   if (found == frames_.end()) return std::nullopt;
   const Answered answered{.frame = *found,
                           .overtaken = static_cast<std::size_t>(found - frames_.begin())};

@@ -11,6 +11,8 @@ namespace tsg {
 struct SentFrame {
   std::uint64_t seq = 0;
   std::int64_t stamp_ns = 0;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
   std::int64_t published_ns = 0;  ///< by the camera; monotonic, as all below
   std::int64_t taken_ns = 0;      ///< when it was taken up
   std::int64_t sent_ns = 0;
@@ -31,6 +33,9 @@ class FramesUnderWay {
   /// Returns how many frames before it nobody waits for any more.
   std::size_t add(const SentFrame& frame);
 
+  /// That frame could not be sent after all.
+  void remove(std::uint64_t seq, std::int64_t sent_ns);
+
   struct Answered {
     SentFrame frame;
     std::size_t overtaken = 0;  ///< frames before it, whose answers nobody waits for any more
@@ -46,6 +51,8 @@ class FramesUnderWay {
   [[nodiscard]] bool is_silent(std::int64_t now_ns) const;
 
  private:
+  [[nodiscard]] std::deque<SentFrame>::iterator find(std::uint64_t seq, std::int64_t sent_ns);
+
   std::size_t most_;
   std::int64_t patience_ns_;
   std::deque<SentFrame> frames_;  ///< in the order of sending; few

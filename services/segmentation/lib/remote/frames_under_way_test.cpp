@@ -59,6 +59,16 @@ TEST(FramesUnderWay, AreNotTakenForThoseOfAnotherSender) {
   EXPECT_TRUE(frames.take(1, 5).has_value());
 }
 
+TEST(FramesUnderWay, GiveTheirPlaceBackWhereTheyCouldNotBeSent) {
+  FramesUnderWay frames(2, kPatienceNs);
+  frames.add(sent(1, 1));
+  frames.add(sent(2, 2));
+  frames.remove(2, 2);
+  EXPECT_TRUE(frames.has_room(3));
+  EXPECT_FALSE(frames.take(2, 2).has_value());
+  EXPECT_EQ(frames.take(1, 1)->overtaken, 0U);
+}
+
 TEST(FramesUnderWay, AreForgottenOneByOneWhereNobodyEverAnswers) {
   FramesUnderWay frames(1, kPatienceNs);
   std::size_t forgotten = 0;
