@@ -12,16 +12,9 @@
 #include "common/core/time.hpp"
 #include "services/segmentation/make_provider.hpp"
 #include "services/segmentation/scheduling.hpp"
+#include "services/segmentation/waits.hpp"
 
 namespace tsg {
-
-namespace {
-
-constexpr std::chrono::milliseconds kFrameWait{100};  // how long commands may lie unanswered
-constexpr std::chrono::milliseconds kFirstReaderWait{1000};
-constexpr std::chrono::milliseconds kNoWait{0};
-
-}  // namespace
 
 SegmentationNode::SegmentationNode(const SegmentationConfig& config,
                                    Bus& bus,

@@ -8,15 +8,11 @@
 
 namespace tsg {
 
-namespace {
-
 std::string with_one_decimal(double value) {
   std::array<char, 32> text{};
   const int length = std::snprintf(text.data(), text.size(), "%.1f", value);
   return {text.data(), static_cast<std::size_t>(length)};
 }
-
-}  // namespace
 
 StatusPublisher::StatusPublisher(Bus& bus, const Log& log, const std::string& service)
     : log_(log), diagnostics_(bus, service), reported_at_ns_(monotonic_ns()) {}

@@ -11,6 +11,9 @@
 
 namespace tsg {
 
+/// As diagnostics have numbers: "12.3".
+[[nodiscard]] std::string with_one_decimal(double value);
+
 /// Tells once a second what the service has done and whether all is as it should be: on
 /// rt/diagnostics, and in the log when that changes. One owner.
 class StatusPublisher {

@@ -21,7 +21,7 @@ struct Thing {
 };
 
 /// The mask of things at 10 Hz; what is nearly covered is not found.
-InstanceSegmentation mask_of(const std::vector<Thing>& things, int number) {
+InstanceSegmentation things_seen(const std::vector<Thing>& things, int number) {
   InstanceSegmentation mask;
   mask.stamp_ns = number * kBetweenMasksNs;
   cv::Mat drawn(480, 640, CV_8UC1, cv::Scalar(0));
@@ -51,7 +51,7 @@ Thing person_at(int x) { return {{x, 100, 100, 300}}; }
 
 TEST(InstanceTracker, KeepsTheIdOfWhatMovesAndGivesEachItsOwn) {
   InstanceTracker tracker;
-  const auto first = follow(tracker, mask_of({person_at(50), person_at(400)}, 0));
+  const auto first = follow(tracker, things_seen({person_at(50), person_at(400)}, 0));
   ASSERT_EQ(first.size(), 2U);
   EXPECT_NE(first[0], 0U);
   EXPECT_NE(first[0], first[1]);
@@ -60,7 +60,7 @@ TEST(InstanceTracker, KeepsTheIdOfWhatMovesAndGivesEachItsOwn) {
     const bool swapped = i % 2 == 0;
     const Thing a = person_at(50 + 15 * i);
     const Thing b = person_at(400 - 3 * i);
-    const auto ids = follow(tracker, mask_of({swapped ? b : a, swapped ? a : b}, i));
+    const auto ids = follow(tracker, things_seen({swapped ? b : a, swapped ? a : b}, i));
     EXPECT_EQ(ids[swapped ? 1 : 0], first[0]) << i;
     EXPECT_EQ(ids[swapped ? 0 : 1], first[1]) << i;
   }
@@ -82,7 +82,7 @@ Crossing cross(int step, int offset, std::mt19937& random) {
   for (int i = 0; i * step < 480; ++i) {
     const Thing behind{{500 + offset - step * i + error(random), 100, 100 + error(random), 300}};
     const Thing in_front{{step * i + error(random), 80, 170 + error(random), 340}};
-    const auto ids = follow(tracker, mask_of({behind, in_front}, i));
+    const auto ids = follow(tracker, things_seen({behind, in_front}, i));
     if (i == 0) first = ids;
     EXPECT_EQ(ids.back(), first.at(1)) << "of the one in front, mask " << i;
     crossing.hidden += ids.size() == 1 ? 1 : 0;
@@ -108,44 +108,44 @@ TEST(InstanceTracker, TellsPeopleWhoCrossApartAfterOneWasHidden) {
 
 TEST(InstanceTracker, FindsAThingAgainThatTheNetworkMissedForSomeFrames) {
   InstanceTracker tracker;
-  const auto first = follow(tracker, mask_of({person_at(50)}, 0));
-  EXPECT_EQ(follow(tracker, mask_of({person_at(70)}, 1)), first);
-  EXPECT_EQ(follow(tracker, mask_of({person_at(90)}, 2)), first);
-  for (int i = 3; i < 10; ++i) EXPECT_TRUE(follow(tracker, mask_of({}, i)).empty());
-  EXPECT_EQ(follow(tracker, mask_of({person_at(50 + 10 * 20)}, 10)), first);
+  const auto first = follow(tracker, things_seen({person_at(50)}, 0));
+  EXPECT_EQ(follow(tracker, things_seen({person_at(70)}, 1)), first);
+  EXPECT_EQ(follow(tracker, things_seen({person_at(90)}, 2)), first);
+  for (int i = 3; i < 10; ++i) EXPECT_TRUE(follow(tracker, things_seen({}, i)).empty());
+  EXPECT_EQ(follow(tracker, things_seen({person_at(50 + 10 * 20)}, 10)), first);
 }
 
 TEST(InstanceTracker, GivesANewIdToWhoComesBackLater) {
   InstanceTracker tracker;
-  const auto first = follow(tracker, mask_of({person_at(50)}, 0));
+  const auto first = follow(tracker, things_seen({person_at(50)}, 0));
   const int late = static_cast<int>(InstanceTracker::kMemoryNs / kBetweenMasksNs) + 1;
-  const auto later = follow(tracker, mask_of({person_at(50)}, late));
+  const auto later = follow(tracker, things_seen({person_at(50)}, late));
   ASSERT_EQ(later.size(), 1U);
   EXPECT_NE(later, first);
 }
 
 TEST(InstanceTracker, GivesWhoEntersElsewhereANewIdAndWhoStaysHisOwn) {
   InstanceTracker tracker;
-  const auto first = follow(tracker, mask_of({person_at(50)}, 0));
-  const auto both = follow(tracker, mask_of({person_at(540), person_at(50)}, 1));
+  const auto first = follow(tracker, things_seen({person_at(50)}, 0));
+  const auto both = follow(tracker, things_seen({person_at(540), person_at(50)}, 1));
   EXPECT_EQ(both.at(1), first.at(0));
   EXPECT_NE(both.at(0), first.at(0));
 }
 
 TEST(InstanceTracker, NeverTakesAThingForOneOfAnotherClass) {
   InstanceTracker tracker;
-  const auto person = follow(tracker, mask_of({{{50, 100, 100, 300}, "person"}}, 0));
-  const auto chair = follow(tracker, mask_of({{{50, 100, 100, 300}, "chair"}}, 1));
+  const auto person = follow(tracker, things_seen({{{50, 100, 100, 300}, "person"}}, 0));
+  const auto chair = follow(tracker, things_seen({{{50, 100, 100, 300}, "chair"}}, 1));
   EXPECT_NE(person, chair);
-  EXPECT_EQ(follow(tracker, mask_of({{{50, 100, 100, 300}, "person"}}, 2)), person);
+  EXPECT_EQ(follow(tracker, things_seen({{{50, 100, 100, 300}, "person"}}, 2)), person);
 }
 
 TEST(InstanceTracker, BeginsAnewWithAnOlderMaskOrOneOfAnotherSize) {
   InstanceTracker tracker;
   std::set<std::uint32_t> ids;
-  ids.insert(follow(tracker, mask_of({person_at(50)}, 5)).at(0));
-  ids.insert(follow(tracker, mask_of({person_at(50)}, 4)).at(0));
-  InstanceSegmentation wider = mask_of({person_at(50)}, 5);
+  ids.insert(follow(tracker, things_seen({person_at(50)}, 5)).at(0));
+  ids.insert(follow(tracker, things_seen({person_at(50)}, 4)).at(0));
+  InstanceSegmentation wider = things_seen({person_at(50)}, 5);
   cv::copyMakeBorder(wider.labels, wider.labels, 0, 0, 0, 8, cv::BORDER_CONSTANT);
   ids.insert(follow(tracker, wider).at(0));
   EXPECT_EQ(ids.size(), 3U);
@@ -153,7 +153,7 @@ TEST(InstanceTracker, BeginsAnewWithAnOlderMaskOrOneOfAnotherSize) {
 
 TEST(InstanceTracker, FollowsByBoxesWhatHasNoPixels) {
   InstanceTracker tracker;
-  InstanceSegmentation mask = mask_of({person_at(50)}, 0);
+  InstanceSegmentation mask = things_seen({person_at(50)}, 0);
   mask.labels.setTo(0);
   const auto first = follow(tracker, mask);
   mask.stamp_ns += kBetweenMasksNs;

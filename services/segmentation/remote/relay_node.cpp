@@ -1,9 +1,7 @@
 #include "services/segmentation/remote/relay_node.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <opencv2/core/mat.hpp>
@@ -15,21 +13,13 @@
 #include "common/core/time.hpp"
 #include "services/segmentation/lib/remote/image_codec.hpp"
 #include "services/segmentation/scheduling.hpp"
+#include "services/segmentation/waits.hpp"
 
 namespace tsg {
 
 namespace {
 
-constexpr std::chrono::milliseconds kFrameWait{100};  // how long commands may lie unanswered
-constexpr std::chrono::milliseconds kAnswerWait{100};
-constexpr std::chrono::milliseconds kFirstReaderWait{1000};
-constexpr std::chrono::milliseconds kNoWait{0};
-
-std::string rounded(double value) {
-  std::array<char, 32> text{};
-  const int length = std::snprintf(text.data(), text.size(), "%.1f", value);
-  return {text.data(), static_cast<std::size_t>(length)};
-}
+constexpr std::chrono::milliseconds kAnswerWait{100};  // how long a new reader may be unsettled
 
 std::vector<Instance> instances_of(const tsg_CompressedMask& answer) {
   std::vector<Instance> instances;
@@ -207,8 +197,8 @@ ProviderState RelayNode::state() {
   ProviderState state;
   state.values = {{"link", hosts == 0 ? "nobody there" : (is_silent ? "silent" : "up")},
                   {"lost", std::to_string(counters_.given_up)},
-                  {"round_trip_p50_ms", rounded(round_trip.median)},
-                  {"round_trip_p99_ms", rounded(round_trip.p99)}};
+                  {"round_trip_p50_ms", with_one_decimal(round_trip.median)},
+                  {"round_trip_p99_ms", with_one_decimal(round_trip.p99)}};
   if (hosts == 0) {
     state.problem = "no other host offers segmentation on interface " + interface_ +
                     ": start tsg-segmentation there with segmentation.input=network, and check the "

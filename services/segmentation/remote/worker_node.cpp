@@ -12,14 +12,14 @@
 #include "services/segmentation/lib/remote/image_codec.hpp"
 #include "services/segmentation/make_provider.hpp"
 #include "services/segmentation/scheduling.hpp"
+#include "services/segmentation/waits.hpp"
 
 namespace tsg {
 
 namespace {
 
-constexpr std::chrono::milliseconds kFrameWait{100};  // how long commands may lie unanswered
 // Not "segmentation": the robot's own is that, and both may hear the same commands.
-constexpr const char* kName = "remote_segmentation";
+constexpr const char* kWorkerName = "remote_segmentation";
 
 }  // namespace
 
@@ -30,8 +30,8 @@ RemoteWorkerNode::RemoteWorkerNode(const SegmentationConfig& config,
       log_(context.log),
       frames_(bus),
       masks_(bus),
-      commands_(bus, kName),
-      status_(bus, context.log, kName) {
+      commands_(bus, kWorkerName),
+      status_(bus, context.log, kWorkerName) {
   apply(config.scheduling, log_);
   provider_ = value_or_throw(make_provider(config));
   commands_.on("report", [this](const std::string&) -> Expected<std::string> { return report(); });
