@@ -30,7 +30,7 @@ Ends with 65 where a file is damaged or the labels are not those of the network,
 there, 67 where the labels file is empty, 72 where the network gives NaN, 76 where its layout is
 unknown.)";
 
-constexpr const char* kRunFooter = R"(
+constexpr const char* kModelRunFooter = R"(
 Runs the network over images as the segmentation service does, and writes what it finds: OUT/mask has a
 label image for each (0 = none, i + 1 = its instance i), OUT/found.json each instance's class, score
 and box, OUT/picture, with --pictures, what it looks like.
@@ -91,7 +91,7 @@ void add_run(CLI::App& model) {
       ->check(CLI::Range(0.0, 1.0).description(""))
       ->capture_default_str();
   command.add_flag("--pictures", options->pictures, "Draw what is found");
-  command.footer(kRunFooter);
+  command.footer(kModelRunFooter);
   command.callback([options] { run(*options); });
 }
 
