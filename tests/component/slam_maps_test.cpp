@@ -100,12 +100,10 @@ TEST_F(SlamMaps, SayThatThePlaceIsLookedForUntilItIsFound) {
   save_a_map();
   end_slam();
   start_in_map(map_, {"slam.map.localisation_only=true"});
-  static_cast<void>(bus_.subscriber<topics::TrackingStatus>());
   RgbdFrame blank = frame_at(0.0);
   blank.colour.setTo(0);
   blank.depth.setTo(0);
-  send(blank);
-  const auto status = status_of(blank.seq);
+  const auto status = answer_to(blank);
   ASSERT_TRUE(status) << content_of(log_);
   EXPECT_EQ((*status)->state, tsg_TRACKING_LOST);
   EXPECT_THAT((*status)->reason, HasSubstr("looking for the place in the loaded map"));
@@ -202,8 +200,9 @@ TEST_F(SlamMaps, OfAnotherCameraEndSlamAtTheFirstFrame) {
   start_in_map(map_);
   RgbdFrame other = frame_at(0.0);
   other.camera.fx = 510.25;
-  send(other);
-  EXPECT_EQ(wait_for_end().exit_code, code(ExitCode::kConfig));
+  const auto ended = end_of(other);
+  ASSERT_TRUE(ended) << content_of(log_);
+  EXPECT_EQ(ended->exit_code, code(ExitCode::kConfig));
   EXPECT_THAT(content_of(log_), AllOf(HasSubstr("fx 500 "), HasSubstr("fx 510.25 ")));
 }
 

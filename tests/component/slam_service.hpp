@@ -18,6 +18,7 @@
 namespace tsg::test {
 
 inline constexpr std::chrono::seconds kPatience{20};  // sanitizers on a busy machine
+inline constexpr std::chrono::seconds kBeforeRepeat{5};
 
 /// tsg-slam in a process of its own, and the rest of the system played by the test.
 class SlamService : public ::testing::Test {
@@ -39,18 +40,40 @@ class SlamService : public ::testing::Test {
     ASSERT_TRUE(publisher.publish(std::move(*loan)));
   }
 
-  /// The answer to frame `seq`.
-  std::optional<Sample<topics::TrackingStatus>> status_of(std::uint64_t seq) {
-    return bus_.wait_for<topics::TrackingStatus>(
-        kPatience, [seq](const auto& status) { return status.header.seq == seq; });
+  /// What `wait_for_answer(patience)` gives once `frame` is sent, and sent again where no answer
+  /// came: like a camera's, a frame is lost that is sent before slam has discovered its publisher.
+  template <typename WaitForAnswer>
+  auto send_until(const RgbdFrame& frame, const WaitForAnswer& wait_for_answer) {
+    send(frame);
+    auto answer = wait_for_answer(kBeforeRepeat);
+    if (answer) return answer;
+    send(frame);
+    return wait_for_answer(kPatience);
   }
 
-  /// Sends frame and waits for the answer; its state, if there is one.
-  std::optional<tsg_TrackingState> track(const RgbdFrame& frame) {
+  /// The answer to frame `seq`.
+  std::optional<Sample<topics::TrackingStatus>> status_of(
+      std::uint64_t seq, std::chrono::milliseconds patience = kPatience) {
+    return bus_.wait_for<topics::TrackingStatus>(
+        patience, [seq](const auto& status) { return status.header.seq == seq; });
+  }
+
+  /// Sends frame and waits for the answer.
+  std::optional<Sample<topics::TrackingStatus>> answer_to(const RgbdFrame& frame) {
     static_cast<void>(bus_.subscriber<topics::TrackingStatus>());
-    send(frame);
-    const auto status = status_of(frame.seq);
+    return send_until(
+        frame, [&](std::chrono::milliseconds patience) { return status_of(frame.seq, patience); });
+  }
+  /// Its state, if there is one.
+  std::optional<tsg_TrackingState> track(const RgbdFrame& frame) {
+    const auto status = answer_to(frame);
     return status ? std::optional((*status)->state) : std::nullopt;
+  }
+
+  /// How slam ends of `frame`, if it does.
+  std::optional<ChildExit> end_of(const RgbdFrame& frame) {
+    return send_until(frame,
+                      [&](std::chrono::milliseconds patience) { return process_->wait(patience); });
   }
 
   ChildExit stop() {

@@ -229,8 +229,7 @@ TEST_F(SlamService, AnswersThatThereIsNothingToSaveBeforeTheFirstPose) {
 
 TEST_F(SlamService, EndsWhereLockstepWaitsInVainForAMask) {
   start({"slam.lockstep=true", "slam.lockstep_mask_wait_s=0.2"});
-  send(wall_.frame(0, 0.0, 0.0));
-  const auto ended = process_->wait(kPatience);
+  const auto ended = end_of(wall_.frame(0, 0.0, 0.0));
   ASSERT_TRUE(ended);
   EXPECT_EQ(ended->exit_code, static_cast<int>(ExitCode::kTimeout));
   EXPECT_THAT(content_of(log_), HasSubstr("no mask of frame 0"));

@@ -43,20 +43,22 @@ KeyframeCloud BackProjector::project(const Keyframe& keyframe, ClassTable& class
   const auto metres_per_unit = static_cast<float>(1.0 / frame.depth_units_per_metre);
 
   KeyframeCloud cloud;
-  cloud.points.reserve(static_cast<std::size_t>(cv::countNonZero(usable)));
+  const auto count = static_cast<std::size_t>(cv::countNonZero(usable));
+  cloud.points.reserve(count);
+  cloud.label_of_point.reserve(count);
   for (int v = 0; v < usable.rows; ++v) {
     const auto* depth = frame.depth.ptr<std::uint16_t>(v);
     const auto* colour = frame.colour.ptr<cv::Vec3b>(v);
     const auto* labels = keyframe.has_labels ? keyframe.instances.labels.ptr(v) : nullptr;
     for (int u = 0; u < usable.cols; ++u) {
       if (usable(v, u) == 0) continue;
-      const std::size_t label = labels != nullptr ? labels[u] : 0;
+      const std::uint8_t label = labels != nullptr ? labels[u] : std::uint8_t{0};
       const cv::Vec3b& bgr = colour[u];
       cloud.points.push_back({point_at(u, v, metres_per_unit * static_cast<float>(depth[u])),
                               {bgr[2], bgr[1], bgr[0]},
                               class_of_label[label],
                               1});
-      ++cloud.points_of_label[label];
+      cloud.label_of_point.push_back(label);
     }
   }
   cloud.free_ends = free_ends(frame, excluded);

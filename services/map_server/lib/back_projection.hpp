@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -18,8 +17,8 @@ struct KeyframeCloud {
   Cloud points;
   /// Ends of rays that met nothing within the range of the map: the space up to them is free.
   std::vector<Eigen::Vector3f> free_ends;
-  /// Points on each label: [0] background, [i + 1] instances[i].
-  std::array<std::uint32_t, kMaxInstances + 1> points_of_label{};
+  /// Of each point: 0 background, i + 1 instances[i].
+  std::vector<std::uint8_t> label_of_point;
 };
 
 /// Turns keyframes into clouds by the paper's eq. 5-6. Pixels are undistorted on the way; the ray

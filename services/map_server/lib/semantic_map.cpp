@@ -51,8 +51,7 @@ std::vector<std::string> MapConfig::problems() const {
 
 SemanticMap::SemanticMap(const MapConfig& config)
     : config_(config),
-      projector_(config.depth, config.exclusion),
-      keyframe_grid_(config.cloud_voxel_m),
+      viewer_(config.depth, config.exclusion, config.cloud_voxel_m),
       cloud_(config.cloud_voxel_m),
       octree_(config.octree) {}
 
@@ -60,32 +59,33 @@ Expected<Integration> SemanticMap::integrate(const Keyframe& keyframe) {
   if (auto checked = check_keyframe(keyframe, config_.max_extent_m); !checked) {
     return tl::unexpected(checked.error());
   }
-  KeyframeCloud seen = projector_.project(keyframe, classes_);
-  count_instances(keyframe, seen);
-  const std::size_t points_raw = seen.points.size();
-  Cloud points = voxel_filter(seen.points, keyframe_grid_);
-
-  // Eq. 7: each keyframe's cloud goes to its place in the common frame.
-  const Eigen::Isometry3f T_world_camera = keyframe.T_world_camera.to_isometry().cast<float>();
-  for (CloudPoint& point : points) {
-    point.position = T_world_camera * point.position;
-    cloud_.add(point);
-  }
-  for (Eigen::Vector3f& end : seen.free_ends) end = T_world_camera * end;
-  octree_.integrate(keyframe.T_world_camera.translation(), points, seen.free_ends, classes_);
-
-  ++keyframes_;
-  keyframes_without_labels_ += keyframe.has_labels ? 0 : 1;
-  points_raw_ += points_raw;
-  return Integration{points_raw, points.size()};
+  const KeyframeView view = viewer_.view(keyframe, classes_);
+  add(view, keyframe.T_world_camera);
+  return Integration{view.points_raw, view.points.size()};
 }
 
-void SemanticMap::count_instances(const Keyframe& keyframe, const KeyframeCloud& cloud) {
+void SemanticMap::add(const KeyframeView& view, const SE3& T_world_camera) {
+  const Eigen::Isometry3f T = T_world_camera.to_isometry().cast<float>();
+  Cloud points = view.points;
+  for (CloudPoint& point : points) {
+    point.position = T * point.position;
+    cloud_.add(point);
+  }
+  std::vector<Eigen::Vector3f> free_ends = view.free_ends;
+  for (Eigen::Vector3f& end : free_ends) end = T * end;
+  octree_.integrate(T_world_camera.translation(), points, free_ends, classes_);
+  count_instances(view);
+  ++keyframes_;
+  keyframes_without_labels_ += view.has_labels ? 0 : 1;
+  points_raw_ += view.points_raw;
+}
+
+void SemanticMap::count_instances(const KeyframeView& view) {
   std::map<ClassId, int> in_view;
-  const auto& instances = keyframe.instances.instances;
-  for (std::size_t i = 0; i < instances.size(); ++i) {
-    if (cloud.points_of_label[i + 1] < kMinInstancePoints) continue;
-    ++in_view[classes_.id_of(instances[i].class_name)];
+  for (const InstanceView& seen : view.instances) {
+    std::uint32_t pixels = 0;
+    for (const CloudPoint& point : seen.points) pixels += point.weight;
+    if (pixels >= kMinInstancePoints) ++in_view[classes_.id_of(seen.instance.class_name)];
   }
   for (const auto& [id, count] : in_view) max_in_view_[id] = std::max(max_in_view_[id], count);
 }

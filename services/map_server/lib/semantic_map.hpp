@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "common/core/error.hpp"
-#include "services/map_server/lib/back_projection.hpp"
 #include "services/map_server/lib/class_table.hpp"
 #include "services/map_server/lib/keyframe.hpp"
+#include "services/map_server/lib/keyframe_view.hpp"
 #include "services/map_server/lib/semantic_octree.hpp"
 #include "services/map_server/lib/voxel_grid.hpp"
 
@@ -79,12 +79,13 @@ class SemanticMap {
   Expected<MapFiles> save(const std::filesystem::path& folder) const;
 
  private:
-  void count_instances(const Keyframe& keyframe, const KeyframeCloud& cloud);
+  /// Puts a view at its place (paper eq. 7).
+  void add(const KeyframeView& view, const SE3& T_world_camera);
+  void count_instances(const KeyframeView& view);
 
   MapConfig config_;
   ClassTable classes_;
-  BackProjector projector_;
-  VoxelGrid keyframe_grid_;  // of the keyframe being integrated, in its own frame
+  KeyframeViewer viewer_;
   VoxelGrid cloud_;
   SemanticOctree octree_;
   std::size_t keyframes_ = 0;
