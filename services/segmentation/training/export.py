@@ -24,7 +24,7 @@ class Raw(torch.nn.Module):
         self.network = network
 
     def forward(self, image: torch.Tensor) -> tuple[torch.Tensor, ...]:
-        categories, kernels, feature = self.network(image)
+        categories, kernels, feature, _ = self.network(image)
         return (*categories, *kernels, feature)
 
 

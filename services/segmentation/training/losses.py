@@ -1,16 +1,28 @@
-"""SOLOv2's losses: focal for classes, Dice for masks."""
+"""SOLOv2's losses, focal for classes and Dice for masks, and one to learn faster: the class of each
+place, as in semantic segmentation."""
+
+from typing import NamedTuple
 
 import numpy as np
 import torch
 from torch import Tensor
 from torch.nn import functional
 
+from training.network import Answer
 from training.targets import Targets
 
-DICE_WEIGHT = 3.0
+MASK_WEIGHT = 3.0  # of the paper
 
 
-def focal_loss(logits: Tensor, classes: Tensor, alpha: float = 0.25, gamma: float = 2.0) -> Tensor:
+class Losses(NamedTuple):
+    """Of a batch."""
+
+    category: Tensor
+    mask: Tensor
+    semantic: Tensor
+
+
+def focal_loss(logits: Tensor, classes: Tensor, alpha: float, gamma: float = 2.0) -> Tensor:
     """Sum over cells and classes (Lin et al., 2017). logits [N, C]; classes [N], -1: none."""
     wanted = torch.zeros_like(logits)
     positive = classes >= 0
@@ -36,16 +48,14 @@ def mask_logits(kernels: Tensor, feature: Tensor) -> Tensor:
     return (kernels @ feature.flatten(1)).view(-1, *feature.shape[1:])
 
 
-def solov2_loss(
-    found: tuple[list[Tensor], list[Tensor], Tensor], targets: list[Targets]
-) -> tuple[Tensor, Tensor]:
-    """Losses of classes and of masks, for the network's answer to a batch."""
-    categories, kernels, feature = found
+def solov2_losses(found: Answer, targets: list[Targets], alpha: float) -> Losses:
+    """Of the network's answer to a batch; `alpha` weighs cells that show something."""
+    categories, kernels, feature, semantic = found
     logits = torch.cat([c.flatten(2) for c in categories], 2).transpose(1, 2)  # [B, cells, C]
     kernels_by_cell = torch.cat([k.flatten(2) for k in kernels], 2).transpose(1, 2)  # [B, cells, E]
     classes = torch.stack([torch.from_numpy(np.concatenate(each.categories)) for each in targets])
     positives = sum(len(each.cells) for each in targets)
-    category_loss = focal_loss(logits.flatten(0, 1), classes.flatten()) / (positives + 1)
+    category_loss = focal_loss(logits.flatten(0, 1), classes.flatten(), alpha) / (positives + 1)
 
     dice = [
         dice_loss(
@@ -56,4 +66,7 @@ def solov2_loss(
         if len(each.cells) > 0
     ]
     mask_loss = torch.cat(dice).mean() if dice else feature.sum() * 0.0
-    return category_loss, DICE_WEIGHT * mask_loss
+    places = torch.from_numpy(np.stack([each.semantic for each in targets]))
+    nothing = semantic.shape[1] - 1
+    semantic_loss = functional.cross_entropy(semantic, torch.where(places < 0, nothing, places))
+    return Losses(category_loss, MASK_WEIGHT * mask_loss, semantic_loss)

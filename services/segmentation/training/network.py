@@ -7,6 +7,8 @@ without a stack of convolutions of its own for each.
 Shapes: B images, C classes, E numbers of a kernel, S cells along a side of a grid.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 import torch
 from torch import Tensor, nn
@@ -22,11 +24,18 @@ def conv_bn(inputs: int, outputs: int, stride: int = 1, kernel: int = 3) -> nn.S
     )
 
 
+class FloatGroupNorm(nn.GroupNorm):
+    """PyTorch 1.13 has none for bfloat16, in which the rest may be reckoned."""
+
+    def forward(self, x: Tensor) -> Tensor:
+        return super().forward(x.float())
+
+
 def conv_gn(inputs: int, outputs: int) -> nn.Sequential:
     """For heads that all levels share: their statistics differ, so none are kept."""
     return nn.Sequential(
         nn.Conv2d(inputs, outputs, 3, padding=1, bias=False),
-        nn.GroupNorm(16, outputs),
+        FloatGroupNorm(16, outputs),
         nn.ReLU(True),
     )
 
@@ -145,6 +154,21 @@ class Head(nn.Module):
         return category, self.kernel_out(self.kernel(with_coordinates(x)))
 
 
+class Answer(NamedTuple):
+    """What the network says of a batch."""
+
+    categories: list[Tensor]  # class scores before the sigmoid, the finest grid first [B, C, S, S]
+    kernels: list[Tensor]  # of the same grids [B, E, S, S]
+    feature: Tensor  # [B, E, H / 4, W / 4]
+    semantic: Tensor  # class of each place before the softmax, the last: none [B, C + 1, H / 8, W / 8]
+
+    def float(self) -> "Answer":
+        """The same as float32."""
+        categories = [each.float() for each in self.categories]
+        kernels = [each.float() for each in self.kernels]
+        return Answer(categories, kernels, self.feature.float(), self.semantic.float())
+
+
 class Solov2(nn.Module):
     """Images, RGB and normalised [B, 3, H, W], H and W multiples of 32, to what SOLOv2's
     convolutions end with."""
@@ -162,11 +186,15 @@ class Solov2(nn.Module):
         self.pyramid = Pyramid(widths, channels)
         self.mask_feature = MaskFeature(channels, kernel_length)
         self.head = Head(channels, classes, kernel_length)
+        self.semantic = nn.Conv2d(channels, classes + 1, 1)  # to learn with only: not exported
 
-    def forward(self, image: Tensor) -> tuple[list[Tensor], list[Tensor], Tensor]:
-        """Class scores of the grids, the finest first [B, C, S, S]; their kernels [B, E, S, S];
-        the mask feature [B, E, H / 4, W / 4]."""
+    def forward(self, image: Tensor) -> Answer:
         levels = self.pyramid(self.backbone(image))
         seen = [levels[1], levels[1], levels[2], levels[3], levels[3]]  # by each grid
         found = [self.head(level, size) for level, size in zip(seen, GRIDS)]
-        return [f[0] for f in found], [f[1] for f in found], self.mask_feature(levels)
+        return Answer(
+            [category for category, _ in found],
+            [kernel for _, kernel in found],
+            self.mask_feature(levels),
+            self.semantic(levels[1]),
+        )

@@ -23,6 +23,7 @@ class Targets:
     cells: np.ndarray  # int64 [P]: counted over all grids, the finest first
     mask_of_cell: np.ndarray  # int64 [P]: which of the masks
     masks: np.ndarray  # float32 [M, H / 4, W / 4]: share of each sample that is the instance's
+    semantic: np.ndarray  # int64 [H / 8, W / 8]: class of each place, -1: none
 
 
 def coarse_mask(mask: np.ndarray) -> np.ndarray:
@@ -30,6 +31,14 @@ def coarse_mask(mask: np.ndarray) -> np.ndarray:
     height, width = mask.shape
     blocks = mask.reshape(height // MASK_STRIDE, MASK_STRIDE, width // MASK_STRIDE, MASK_STRIDE)
     return blocks.mean((1, 3), dtype=np.float32)
+
+
+def semantic_target(ids: np.ndarray, classes: dict[int, int]) -> np.ndarray:
+    """ids [H, W] to the classes of every eighth pixel, from the fourth on; -1: none."""
+    places = ids[4::8, 4::8].astype(np.int64)
+    table = np.full(max([int(ids.max()), *classes]) + 1, -1, np.int64)
+    table[list(classes)] = list(classes.values())
+    return table[places]
 
 
 def cells_of(low: float, high: float, centre: float, size: int) -> range:
@@ -79,6 +88,7 @@ def make_targets(ids: np.ndarray, classes: dict[int, int]) -> Targets:
     return Targets(
         categories,
         np.array(cells, np.int64),
-        np.array([owners[c] for c in cells], np.int64),
+        np.array([owners[cell] for cell in cells], np.int64),
         coarse,
+        semantic_target(ids, classes),
     )

@@ -23,7 +23,7 @@ from training.classes import CLASSES
 from training.dataset import Frame
 from training.export import export
 from training.floor_plan import FloorPlan, bounds
-from training.network import GRIDS, Solov2
+from training.network import GRIDS, Answer, Solov2
 from training.train import Plan, Sampler, Trainer, train
 
 FIRST_CELLS = np.cumsum([0] + [size * size for size in GRIDS])
@@ -44,25 +44,26 @@ def ids_with(box: tuple[int, int, int, int], shape=(256, 320)) -> np.ndarray:
 
 class Scenes(unittest.TestCase):
     def test_are_the_same_for_the_same_seed_only(self):
-        first, again, other = (scenes.make_scene(seed, 5).scene for seed in (7, 7, 8))
+        first, again, other = (scenes.make_scene(seed, 5) for seed in (7, 7, 8))
         self.assertEqual(first, again)
         self.assertNotEqual(first["objects"], other["objects"])
 
     def test_keep_the_camera_inside_and_give_it_a_place_for_each_frame(self):
         for seed in range(20):
-            writer = scenes.make_scene(seed, 6)
-            waypoints = writer.scene["camera"]["waypoints"]
+            scene = scenes.make_scene(seed, 6)
+            width, depth = scene["rooms"][0]["max_m"]
+            waypoints = scene["camera"]["waypoints"]
             self.assertEqual([w["at_s"] for w in waypoints], list(range(7)))
             for waypoint in waypoints:
                 x, y, z = waypoint["position_m"]
-                self.assertTrue(0.1 < x < writer.plan.width - 0.1, seed)
-                self.assertTrue(0.1 < y < writer.plan.depth - 0.1, seed)
+                self.assertTrue(0.1 < x < width - 0.1, seed)
+                self.assertTrue(0.1 < y < depth - 0.1, seed)
                 self.assertGreater(math.dist((x, y), waypoint["look_at_m"][:2]), 0.05)
-            yaml.safe_load(yaml.safe_dump(writer.scene))
+            self.assertEqual(yaml.safe_load(yaml.safe_dump(scene)), scene)
 
     def test_never_seat_two_on_one_chair(self):
         for seed in range(30):
-            people = scenes.make_scene(seed, 4).scene["people"]
+            people = scenes.make_scene(seed, 4)["people"]
             seats = [a["sit"]["on"] for p in people for a in p["actions"] if "sit" in a]
             self.assertEqual(len(seats), len(set(seats)), seed)
 
@@ -121,6 +122,12 @@ class Targets(unittest.TestCase):
         self.assertAlmostEqual(float(found.masks.sum()) * 16, 40 * 59, places=3)
         self.assertAlmostEqual(float(found.masks[0, 30, 25]), 0.75)  # columns 101, 102, 103 of four
 
+    def test_tell_the_class_of_every_eighth_pixel(self):
+        semantic = targets.make_targets(ids_with((64, 80, 128, 160)), {1: 3, 9: 4}).semantic
+        self.assertEqual(semantic.shape, (32, 40))
+        self.assertTrue((semantic[8:16, 10:20] == 3).all())
+        self.assertEqual((semantic == -1).sum(), 32 * 40 - 8 * 10)
+
     def test_give_a_cell_that_two_claim_to_the_smaller(self):
         ids = ids_with((60, 80, 200, 240))
         ids[110:150, 140:180] = 2
@@ -140,7 +147,9 @@ class Losses(unittest.TestCase):
         p = [1 / (1 + math.exp(-x)) for x in (0.4, -1.2, 2.0, 0.1)]
         wanted = -0.25 * (1 - p[1]) ** 2 * math.log(p[1])
         wanted += sum(-0.75 * q**2 * math.log(1 - q) for q in (p[0], p[2], p[3]))
-        self.assertAlmostEqual(float(losses.focal_loss(logits, classes)), wanted, places=5)
+        self.assertAlmostEqual(
+            float(losses.focal_loss(logits, classes, alpha=0.25)), wanted, places=5
+        )
 
     def test_dice_loss_goes_from_one_to_zero(self):
         masks = torch.zeros(1, 8, 8)
@@ -163,24 +172,26 @@ class Losses(unittest.TestCase):
                 for k, s in zip((factor * cells).split([s * s for s in GRIDS], 2), GRIDS)
             ]
             categories = [torch.full((1, 3, s, s), -9.0) for s in GRIDS]
-            _, mask_loss = losses.solov2_loss((categories, kernels, feature), [wanted])
+            answer = Answer(categories, kernels, feature, torch.zeros(1, 4, 32, 40))
+            mask_loss = losses.solov2_losses(answer, [wanted], 0.25).mask
             self.assertTrue(low <= float(mask_loss) <= high, float(mask_loss))
 
     def test_are_finite_without_any_instance(self):
         network = Solov2(4)
         nothing = targets.make_targets(np.zeros((64, 96), np.uint8), {})
-        found = losses.solov2_loss(network(torch.zeros(1, 3, 64, 96)), [nothing])
+        found = losses.solov2_losses(network(torch.zeros(1, 3, 64, 96)), [nothing], 0.25)
         self.assertTrue(all(torch.isfinite(loss) for loss in found))
 
 
 class Network(unittest.TestCase):
     def test_answers_with_the_shapes_that_the_decoder_expects(self):
-        categories, kernels, feature = Solov2(7, kernel_length=32).eval()(
+        categories, kernels, feature, semantic = Solov2(7, kernel_length=32).eval()(
             torch.zeros(2, 3, 128, 160)
         )
         self.assertEqual([tuple(c.shape) for c in categories], [(2, 7, s, s) for s in GRIDS])
         self.assertEqual([tuple(k.shape) for k in kernels], [(2, 32, s, s) for s in GRIDS])
         self.assertEqual(tuple(feature.shape), (2, 32, 32, 40))
+        self.assertEqual(tuple(semantic.shape), (2, 8, 16, 20))
 
     def test_is_exported_with_names_of_outputs_and_classes(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -201,13 +212,14 @@ class Network(unittest.TestCase):
         frame = frame_with(ids_with((16, 24, 48, 72), (64, 96)), {1: 0})
         image, ids = fitted(frame, 64, 96)
         with tempfile.TemporaryDirectory() as folder:
-            trainer = Trainer(Plan(iterations=40, warm_up=5), pathlib.Path(folder))
+            trainer = Trainer(Plan(iterations=40, warm_up=5, masks_first=0), pathlib.Path(folder))
             tensor = torch.from_numpy(image).permute(2, 0, 1)[None].repeat(2, 1, 1, 1)
             goal = [targets.make_targets(ids, frame.classes)] * 2
             first, *_, last = (trainer.step(tensor, goal) for _ in range(40))
-        self.assertGreater(first[1], 1.0)
-        self.assertLess(last[1], 0.5)
-        self.assertLess(last[0], 0.5 * first[0])
+        self.assertGreater(first.mask, 1.0)
+        self.assertLess(last.mask, 0.5)
+        self.assertLess(last.category, 0.5 * first.category)
+        self.assertLess(last.semantic, 0.5 * first.semantic)
 
 
 class Training(unittest.TestCase):
