@@ -23,4 +23,8 @@ Expected<std::filesystem::path> find_config_file(const std::filesystem::path& na
                     name.string() + " is " + places + "; install TSG-SLAM again");
 }
 
+Expected<std::filesystem::path> find_shipped_network() {
+  return find_config_file("models/solov2-rooms.onnx");
+}
+
 }  // namespace tsg

@@ -16,4 +16,8 @@ namespace tsg {
 /// A file of config/, e.g. "roudi.toml". kMissingInput, naming where it was looked for.
 [[nodiscard]] Expected<std::filesystem::path> find_config_file(const std::filesystem::path& name);
 
+/// The network that segmentation runs where none is named. It has learnt from simulated rooms only
+/// (config/models/model-card.md). kMissingInput as above.
+[[nodiscard]] Expected<std::filesystem::path> find_shipped_network();
+
 }  // namespace tsg

@@ -12,6 +12,12 @@ TEST(ShippedFiles, AreFoundInTheSourceFolderOfABuild) {
   EXPECT_TRUE(std::filesystem::is_regular_file(*file));
 }
 
+TEST(ShippedFiles, HaveANetworkSmallEnoughToBeShippedWithTheSource) {
+  const auto file = find_shipped_network();
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_LE(std::filesystem::file_size(*file), 20'000'000U);
+}
+
 TEST(ShippedFiles, ThatAreAbsentAreNamedWithThePlacesSearched) {
   const auto file = find_config_file("nothing.toml");
   ASSERT_FALSE(file);

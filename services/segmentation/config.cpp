@@ -1,6 +1,7 @@
 #include "services/segmentation/config.hpp"
 
 #include "common/app/mask_faults_file.hpp"
+#include "common/app/shipped_files.hpp"
 
 namespace tsg {
 
@@ -63,6 +64,11 @@ SegmentationConfig load_segmentation_config(const ConfigFile& file) {
   reader.read("model.nms_iou", config.network.decoder.nms_iou);
   read_mask_faults(reader, "faults.", config.faults);
   reader.finish(config.problems());
+  if (config.provider == "model" && config.network.model.file.empty()) {
+    // Empty still where the installation is not whole: then the node tells that the key is not set.
+    config.network.model.file = find_shipped_network().value_or("").string();
+    config.uses_shipped_network = !config.network.model.file.empty();
+  }
   return config;
 }
 

@@ -25,6 +25,7 @@ struct SegmentationConfig {
   std::string provider = "model";   // "model", "dataset" or "remote"
   std::string dataset_folder = {};  // with mask/ and instances.json; for provider "dataset"
   ModelProviderConfig network = {};
+  bool uses_shipped_network = false;  // as model.file names none
   RemoteConfig remote = {};
   Scheduling scheduling = {};
   MaskFaults faults = {};  // for evaluation only

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "common/core/error.hpp"
 
 namespace tsg {
@@ -31,11 +33,20 @@ TEST(SegmentationConfig, IsReadFromItsSection) {
   EXPECT_EQ(config.remote.frames_under_way, 3);
   EXPECT_EQ(config.remote.patience_ms, 500);
   EXPECT_EQ(config.network.model.file, "/model.onnx");
+  EXPECT_FALSE(config.uses_shipped_network);
   EXPECT_EQ(config.network.labels_file, "/coco.txt");
   EXPECT_EQ(config.network.model.runtime_library, "/libonnxruntime.so");
   EXPECT_EQ(config.network.model.threads, 3);
   EXPECT_DOUBLE_EQ(config.network.decoder.score_threshold, 0.4);
   EXPECT_DOUBLE_EQ(config.network.decoder.nms_iou, 0.7);
+}
+
+TEST(SegmentationConfig, NamesTheShippedNetworkWhereNoneIsNamed) {
+  const SegmentationConfig config = load_segmentation_config(ConfigFile::from_overrides({}));
+  EXPECT_EQ(std::filesystem::path(config.network.model.file).filename(), "solov2-rooms.onnx");
+  EXPECT_TRUE(std::filesystem::exists(config.network.model.file));
+  EXPECT_TRUE(config.uses_shipped_network);
+  EXPECT_EQ(config.network.labels_file, "") << "its classes are in the file";
 }
 
 TEST(SegmentationConfig, HasNoFaultsUnlessTheyAreAskedFor) {

@@ -30,6 +30,11 @@ SegmentationNode::SegmentationNode(const SegmentationConfig& config,
       delayed_(config.faults.late_frames) {
   apply(config.scheduling, log_);
   provider_ = value_or_throw(make_provider(config));
+  if (config.uses_shipped_network) {
+    log_.warn(
+        "the shipped network knows simulated rooms only: for a camera set "
+        "segmentation.model.file (docs/models.md)");
+  }
   commands_.on("report", [this](const std::string&) -> Expected<std::string> { return report(); });
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/app/config_file.hpp"
+#include "common/app/shipped_files.hpp"
 #include "common/app/stop_on_signal.hpp"
 #include "common/core/atomic_file.hpp"
 #include "common/core/time.hpp"
@@ -72,7 +73,10 @@ void describe(CLI::App& command, RunArguments& arguments) {
   command.add_option("--segmentation", arguments.segmentation, "Where masks come from")
       ->check(CLI::IsMember({"dataset", "model", "off"}).description(""))
       ->type_name("dataset|model|off");
-  command.add_option("--model", options.model, "Network for --segmentation model")
+  command
+      .add_option("--model", options.model,
+                  "Network for --segmentation model (the shipped one, which knows simulated "
+                  "rooms only)")
       ->type_name("FILE.onnx");
   command
       .add_option("--labels", options.labels,
@@ -192,6 +196,9 @@ void run(RunArguments& arguments) {
   options.overrides = with_method(arguments.bus.overrides, arguments.method);
   options.pace = arguments.pace == "lockstep" ? Pace::kLockstep : Pace::kRealtime;
   options.segmentation = segmentation_of(arguments);
+  if (arguments.segmentation == "model" && options.model.empty()) {
+    options.model = value_or_throw(find_shipped_network());
+  }
   throw_on_error(check_run_options(options));
   check_debug(arguments);
   check_map_folder(options.save_map);

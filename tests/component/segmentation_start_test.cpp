@@ -52,8 +52,6 @@ TEST(SegmentationStart, NamesAnUnknownKey) {
 TEST(SegmentationStart, NamesTheKeyOfAProviderThatIsNotSet) {
   expect_start_error({"segmentation.provider=dataset"}, ExitCode::kConfig,
                      {"segmentation.dataset.folder is not set"});
-  expect_start_error({"segmentation.provider=model"}, ExitCode::kConfig,
-                     {"segmentation.model.file is not set"});
 }
 
 TEST(SegmentationStart, NamesAModelThatIsNotThere) {

@@ -76,7 +76,8 @@ TEST(TsgctlUsage, MistakesEndWith64AndSayWhatIsWrong) {
       {{}, "subcommand is required"},
       {{"run", "--out", "/tmp/out"}, "--input is required"},
       {{"run", "--input", ".", "--out", "o", "--pace", "slow"}, "--pace"},
-      {{"run", "--input", ".", "--out", "o", "--segmentation", "model"}, "--model FILE"},
+      {{"run", "--input", ".", "--out", "o", "--segmentation", "off", "--model", "m.onnx"},
+       "--model goes with --segmentation model"},
       {{"echo", "no/such/topic"}, "tsg/tracking_status"},
       {{"hz", "tsg/rgbd", "--window", "1"}, "--window"},
       {{"fly"}, "fly"}};

@@ -189,6 +189,32 @@ TEST(RunWalkingXyz, NetworkInRealTimeDropsNoFrame) {
   EXPECT_LE(ate_rmse(report), 0.05);
 }
 
+/// Where people cover half of what is seen, so that poses are off by decimetres if nothing tells
+/// which pixels they are.
+TEST(RunBusyOffice, TheShippedNetworkKeepsPeopleOutOfThePoses) {
+  const TempFolder folder;
+  simulate(folder / "office", "busy_office", {"--frames", "330", "--size", "320x240"});
+  const auto options_with = [](const std::string& segmentation) {
+    std::vector<std::string> options = lockstep(segmentation);
+    options.insert(options.end(), {"--method", "mask"});
+    return options;
+  };
+  TsgctlRun blind(folder / "office", options_with("off"));
+  const nlohmann::json without = complete_run(blind);
+  ASSERT_TRUE(without.is_object());
+  EXPECT_GT(ate_rmse(without), 0.1) << "the scene is too easy to tell anything";
+
+  TsgctlRun run(folder / "office", options_with("model"));
+  const nlohmann::json report = complete_run(run);
+  ASSERT_TRUE(report.is_object());
+  EXPECT_EQ(report["frames"]["dropped"], 0);
+  EXPECT_GE(report["frames"]["tracked"], 325) << "of 330";
+  EXPECT_EQ(std::filesystem::path(report["model"].get<std::string>()).filename(),
+            "solov2-rooms.onnx");
+  EXPECT_DOUBLE_EQ(report["masks"]["rate"], 1.0);
+  EXPECT_LE(ate_rmse(report), 0.03);
+}
+
 TEST(RunStaticRoom, LockstepWithTrueMasksIsAccurate) {
   TSG_REQUIRE_SHARED("data/rendered/static_room");
   TsgctlRun run(shared_dir() / "data/rendered/static_room", lockstep("dataset"));
