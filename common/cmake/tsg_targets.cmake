@@ -71,6 +71,10 @@ function(tsg_add_test_executable name sources link)
   target_link_libraries(${name} PRIVATE ${link} tsg_options GTest::gtest GTest::gmock
                                         GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE TSG_DEFAULT_SHARED_DIR="${TSG_SHARED_DIR}")
+  if(TSG_UNITY_TESTS)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
+    target_compile_options(${name} PRIVATE -Wno-subobject-linkage)  # g++ takes them for headers
+  endif()
   if(ARG_QUICK)
     target_compile_options(${name} PRIVATE ${TSG_QUICK_OPTIMISATION})
     tsg_use_precompiled(${name} tsg_quick_test_pch)
