@@ -173,6 +173,8 @@ const std::vector<SimulatedInstance>& Simulator::instances() const {
   return impl_->world.instances();
 }
 
+const World& Simulator::world() const { return impl_->world; }
+
 SimulatedFrame Simulator::render(int frame) {
   const std::int64_t since_start_ns = this->since_start_ns(frame);
   const double time_s = static_cast<double>(since_start_ns) * 1e-9;

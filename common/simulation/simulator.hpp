@@ -13,6 +13,8 @@
 
 namespace tsg::simulation {
 
+class World;
+
 /// Raw depth is in units of 1/5000 m, as in TUM RGB-D sequences.
 inline constexpr double kDepthUnitsPerMetre = 5000.0;
 
@@ -52,6 +54,9 @@ class Simulator {
   [[nodiscard]] std::int64_t since_start_ns(int frame) const;
   [[nodiscard]] SE3 T_world_camera(double time_s) const;
   [[nodiscard]] const std::vector<SimulatedInstance>& instances() const;
+
+  /// The geometry behind the frames: for truth that no frame shows. Valid as long as this object.
+  [[nodiscard]] const World& world() const;
 
   /// `frame` 0.. ; beyond frame_count() the scene goes on as its actors do.
   [[nodiscard]] SimulatedFrame render(int frame);

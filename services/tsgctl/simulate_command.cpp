@@ -22,7 +22,8 @@ namespace {
 
 constexpr const char* kSimulateFooter = R"(
 SCENE is the name of a shipped scene (--list) or the path of a file of your own
-(docs/simulation.md). DIR gets rgb/, depth/, mask/, groundtruth.txt, camera.yaml and instances.json;
+(docs/simulation.md). DIR gets rgb/, depth/, mask/, groundtruth.txt, camera.yaml, instances.json and
+what 'tsgctl eval map' compares a map with (truth_objects.json, truth_people.bt, truth_surfaces.bt);
 the same scene and seed give the same bytes.
 
 Parts of the sensor model for --noise: depth_noise depth_quantisation depth_holes depth_range

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "common/scene_file/scene_file.hpp"
 #include "services/tsgctl/simulate/sequence_writer.hpp"
@@ -27,9 +28,12 @@ inline void render_part(const ScenePart& part, const std::filesystem::path& fold
   auto simulator = value_or_throw(simulation::Simulator::build(scene));
   auto writer = value_or_throw(SequenceWriter::open(folder, scene.sensor, simulator.instances()));
   const int until = static_cast<int>(part.to_s * part.rate_hz);
+  std::vector<int> frames;
   for (int frame = static_cast<int>(part.from_s * part.rate_hz); frame < until; ++frame) {
     throw_on_error(writer.add(simulator.render(frame)));
+    frames.push_back(frame);
   }
+  throw_on_error(write_truth_of_scene(simulator, frames, folder));
   throw_on_error(writer.finish());
 }
 

@@ -121,6 +121,8 @@ void World::add_object(const PlacedObject& object) {
   const std::string& name = object.description.name;
   const bool moves = is_moved(name);
   const int id = add_instance(object.model.class_name, name, moves);
+  shapes_.emplace_back();
+  for (const Eigen::Vector3f& point : object.model.mesh.points) shapes_.back().extend(point);
   render::Part part{.mesh = {}, .tag = static_cast<std::uint16_t>(id)};
   if (moves) {
     part.mesh = render::subdivided(object.model.mesh, kBodyLightGridM);
@@ -166,6 +168,20 @@ SE3 World::T_world_object(const std::string& name, double time_s) const {
   if (object.on.empty()) return object.T_support_object_at(time_s);
   return T_world_object(object.on, time_s) * object.T_support_object_at(time_s);
 }
+
+std::vector<ObjectBox> World::object_boxes(double time_s) const {
+  std::vector<ObjectBox> boxes;
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {  // objects have the first ids
+    const SE3 T_world_object = this->T_world_object(instances_[i].name, time_s);
+    boxes.push_back({.id = instances_[i].id,
+                     .centre_m = T_world_object * shapes_[i].center().cast<double>(),
+                     .size_m = shapes_[i].sizes().cast<double>(),
+                     .yaw_rad = floor_pose_of(T_world_object).yaw_rad});
+  }
+  return boxes;
+}
+
+bool World::is_person(int id) const { return static_cast<std::size_t>(id) > shapes_.size(); }
 
 SE3 World::Standing::T_support_object_at(double time_s) const {
   const double z_m = T_support_object.translation().z();

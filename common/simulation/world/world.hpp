@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,6 +16,14 @@
 #include "common/simulation/world/placement.hpp"
 
 namespace tsg::simulation {
+
+/// The upright box around an object, along the object's own axes; world, metres.
+struct ObjectBox {
+  int id = 0;  ///< of its instance
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
+  double yaw_rad = 0.0;  ///< of its x axis
+};
 
 /// The geometry of a scene and how it moves: what stays, the things that are moved, the people.
 class World {
@@ -40,6 +49,11 @@ class World {
 
   /// Where an object of the scene is.
   [[nodiscard]] SE3 T_world_object(const std::string& name, double time_s) const;
+
+  /// Where all objects of the scene are, by their ids.
+  [[nodiscard]] std::vector<ObjectBox> object_boxes(double time_s) const;
+  /// Whether the instance is a person; else it is an object.
+  [[nodiscard]] bool is_person(int id) const;
 
  private:
   /// How an object comes to its place.
@@ -68,6 +82,7 @@ class World {
   Choreography choreography_;
   std::map<std::string, Standing> objects_;
   std::vector<SimulatedInstance> instances_;
+  std::vector<Eigen::AlignedBox3f> shapes_;  ///< of the objects, in their own axes, by id
   std::vector<render::Part> fixed_;
   std::vector<render::Part> bodies_;
   std::vector<std::string> moved_;  ///< names of the first bodies

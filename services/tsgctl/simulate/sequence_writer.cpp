@@ -11,6 +11,8 @@
 #include "common/core/atomic_file.hpp"
 #include "common/dataset/stamp.hpp"
 #include "common/dataset/trajectory.hpp"
+#include "services/tsgctl/scene_truth/scene_truth.hpp"
+#include "services/tsgctl/simulate/scene_truth_recorder.hpp"
 
 namespace tsg {
 namespace {
@@ -50,6 +52,18 @@ std::set<int> visible_in(const cv::Mat& ids) {
 }
 
 }  // namespace
+
+Expected<void> write_truth_of_scene(const simulation::Simulator& simulator,
+                                    const std::vector<int>& frames,
+                                    const fs::path& folder) {
+  SceneTruthRecorder recorder(simulator.world());
+  for (const int frame : frames) {
+    const std::int64_t since_start_ns = simulator.since_start_ns(frame);
+    recorder.add_frame(kSequenceStartNs + since_start_ns,
+                       static_cast<double>(since_start_ns) * 1e-9);
+  }
+  return write_scene_truth(folder, recorder.truth());
+}
 
 Expected<void> check_new_folder(const fs::path& folder) {
   std::error_code absent;

@@ -16,6 +16,12 @@ namespace tsg {
 /// When simulated sequences begin, UTC: any time will do, but always the same.
 inline constexpr std::int64_t kSequenceStartNs = 1'700'000'000'000'000'000;
 
+/// Writes what is true of the space of a scene beside the images of these frames
+/// (write_scene_truth()); takes milliseconds for each frame with people. kCannotWrite.
+[[nodiscard]] Expected<void> write_truth_of_scene(const simulation::Simulator& simulator,
+                                                  const std::vector<int>& frames,
+                                                  const std::filesystem::path& folder);
+
 /// kCannotWrite where `folder` is there and holds something, or is no folder.
 [[nodiscard]] Expected<void> check_new_folder(const std::filesystem::path& folder);
 

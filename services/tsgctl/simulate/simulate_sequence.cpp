@@ -3,6 +3,7 @@
 #include <stop_token>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "common/core/bounded_queue.hpp"
 #include "services/tsgctl/simulate/sequence_writer.hpp"
@@ -58,11 +59,14 @@ Expected<void> simulate_sequence(simulation::Simulator& simulator,
   auto writer = SequenceWriter::open(folder, simulator.scene().sensor, simulator.instances());
   if (!writer) return tl::unexpected(writer.error());
   WritingThread writing(std::move(*writer));
+  std::vector<int> rendered;
   for (int frame = 0; frame < frames; ++frame) {
     if (!writing.add(simulator.render(frame))) break;
+    rendered.push_back(frame);
     on_frame(frame + 1);
   }
-  return writing.finish();
+  if (auto truth = write_truth_of_scene(simulator, rendered, folder); !truth) return truth;
+  return writing.finish();  // last, as a folder without lists is one that was not finished
 }
 
 }  // namespace tsg

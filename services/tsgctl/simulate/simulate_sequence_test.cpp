@@ -62,7 +62,7 @@ TEST_F(SimulatedSequence, OfOneSeedIsTheSameToTheByteAndOfAnotherDiffers) {
   const auto first = files_of(render(simulator(5), "first"));
   const auto second = files_of(render(simulator(5), "second"));
   const auto other = files_of(render(simulator(6), "other"));
-  EXPECT_EQ(first.size(), 3U * 3U + 5U);
+  EXPECT_EQ(first.size(), 3U * 3U + 8U);
   EXPECT_EQ(first, second);
   EXPECT_NE(first, other);
   EXPECT_EQ(done_, 3);
