@@ -21,6 +21,7 @@ namespace tsg {
 namespace {
 
 constexpr double kKibPerMib = 1024.0;
+constexpr std::chrono::milliseconds kGrace{2000};  // services end within it
 
 double to_seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
@@ -135,10 +136,7 @@ ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
 ChildProcess::~ChildProcess() { release(); }
 
 void ChildProcess::release() noexcept {
-  if (pid_ > 0 && !exit_) {
-    signal(SIGKILL);
-    reap(0);
-  }
+  if (pid_ > 0 && !exit_) terminate(kGrace);
   if (pid_fd_ >= 0) close(pid_fd_);
   pid_ = -1;
   pid_fd_ = -1;

@@ -45,7 +45,8 @@ class ChildProcess {
   ChildProcess& operator=(ChildProcess&& other) noexcept;
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
-  /// Kills the group if it still runs.
+  /// SIGTERM to the group if it still runs, and SIGKILL after two seconds. Not at once: who is
+  /// killed while it holds a lock in shared memory leaves it locked, for RouDi as well.
   ~ChildProcess();
 
   [[nodiscard]] pid_t pid() const { return pid_; }

@@ -78,5 +78,19 @@ TEST(ChildProcess, LeavesNothingBehindWhenItGoesOutOfScope) {
   EXPECT_EQ(kill(pid, 0), -1);
 }
 
+TEST(ChildProcess, MayTidyUpWhenItGoesOutOfScope) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("tidied_" + std::to_string(getpid()));
+  {
+    ChildProcess child = shell("trap 'rm " + path.string() + "; exit' TERM; touch " +
+                               path.string() + "; while :; do sleep 0.02; done");
+    for (int i = 0; i < 500 && !std::filesystem::exists(path); ++i) {
+      static_cast<void>(child.wait(10ms));
+    }
+    ASSERT_TRUE(std::filesystem::exists(path));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 }  // namespace
 }  // namespace tsg
