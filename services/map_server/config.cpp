@@ -29,6 +29,16 @@ MapServerConfig load_map_server_config(const ConfigFile& file) {
   reader.read("occupancy.miss_probability", map.octree.miss_probability);
   reader.read("occupancy.min_probability", map.octree.min_probability);
   reader.read("occupancy.max_probability", map.octree.max_probability);
+  reader.read("tags.voxel_m", map.tags.voxel_m);
+  reader.read("tags.max_voxels", map.tags.max_voxels);
+  reader.read("tags.min_points", map.tags.min_points);
+  reader.read("tags.min_overlap", map.tags.min_overlap);
+  reader.read("tags.sure_overlap", map.tags.sure_overlap);
+  reader.read("tags.merge_overlap", map.tags.merge_overlap);
+  reader.read("tags.min_confidence", map.tags.min_confidence);
+  reader.read("tags.min_observations", map.tags.min_observations);
+  reader.read("tags.gone_share", map.tags.gone_share);
+  reader.read("tags.checks_per_keyframe", map.tags.checks_per_keyframe);
   reader.finish(config.problems());
   return config;
 }

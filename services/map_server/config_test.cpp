@@ -42,6 +42,26 @@ TEST(MapServerConfig, ReadsEveryKey) {
   EXPECT_EQ(config.map.octree.max_probability, 0.9);
 }
 
+TEST(MapServerConfig, ReadsEveryKeyOfTheTags) {
+  const TagConfig tags =
+      load({"map_server.tags.voxel_m=0.03", "map_server.tags.max_voxels=5000",
+            "map_server.tags.min_points=50", "map_server.tags.min_overlap=0.2",
+            "map_server.tags.sure_overlap=0.45", "map_server.tags.merge_overlap=0.55",
+            "map_server.tags.min_confidence=0.7", "map_server.tags.min_observations=4",
+            "map_server.tags.gone_share=0.3", "map_server.tags.checks_per_keyframe=9"})
+          .map.tags;
+  EXPECT_EQ(tags.voxel_m, 0.03);
+  EXPECT_EQ(tags.max_voxels, 5000);
+  EXPECT_EQ(tags.min_points, 50);
+  EXPECT_EQ(tags.min_overlap, 0.2);
+  EXPECT_EQ(tags.sure_overlap, 0.45);
+  EXPECT_EQ(tags.merge_overlap, 0.55);
+  EXPECT_EQ(tags.min_confidence, 0.7);
+  EXPECT_EQ(tags.min_observations, 4);
+  EXPECT_EQ(tags.gone_share, 0.3);
+  EXPECT_EQ(tags.checks_per_keyframe, 9);
+}
+
 TEST(MapServerConfig, ListsAllProblemsAtOnce) {
   try {
     (void)load({"map_server.resolution_m=0", "map_server.queue_keyframes=0",

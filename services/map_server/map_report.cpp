@@ -9,8 +9,10 @@ nlohmann::json to_json(const MapSummary& summary,
                        const Summary& integration_ms) {
   nlohmann::json objects = nlohmann::json::array();
   for (const ObjectClass& object : summary.objects) {
-    objects.push_back(
-        {{"class", object.name}, {"max_in_view", object.max_in_view}, {"leaves", object.leaves}});
+    objects.push_back({{"class", object.name},
+                       {"count", object.count},
+                       {"max_in_view", object.max_in_view},
+                       {"leaves", object.leaves}});
   }
   return {{"keyframes", summary.keyframes},
           {"keyframes_without_labels", summary.keyframes_without_labels},

@@ -37,6 +37,7 @@ std::vector<std::string> MapConfig::problems() const {
   std::vector<std::string> found = depth.problems();
   append(found, exclusion.problems());
   append(found, octree.problems());
+  append(found, tags.problems());
   if (!(cloud_voxel_m >= 0.002 && cloud_voxel_m <= octree.resolution_m)) {
     found.emplace_back("cloud_voxel_m must be 0.002..resolution_m");
   }
@@ -53,7 +54,8 @@ SemanticMap::SemanticMap(const MapConfig& config)
     : config_(config),
       viewer_(config.depth, config.exclusion, config.cloud_voxel_m),
       cloud_(config.cloud_voxel_m),
-      octree_(config.octree) {}
+      octree_(config.octree),
+      tags_(config.tags) {}
 
 Expected<Integration> SemanticMap::integrate(const Keyframe& keyframe) {
   if (auto checked = check_keyframe(keyframe, config_.max_extent_m); !checked) {
@@ -65,6 +67,7 @@ Expected<Integration> SemanticMap::integrate(const Keyframe& keyframe) {
 }
 
 void SemanticMap::add(const KeyframeView& view, const SE3& T_world_camera) {
+  tags_.add(view, T_world_camera, [this](const Eigen::Vector3f& p) { return octree_.place_at(p); });
   const Eigen::Isometry3f T = T_world_camera.to_isometry().cast<float>();
   Cloud points = view.points;
   for (CloudPoint& point : points) {
@@ -106,10 +109,13 @@ MapSummary SemanticMap::summary() const {
   summary.points = static_cloud().size();
   summary.leaves = leaves.occupied;
   summary.leaves_free = leaves.free;
+  std::map<std::string, int> present;
+  for (const Tag& tag : tags_.tags()) present[tag.class_name] += is_present(tag) ? 1 : 0;
   for (const auto& [id, count] : max_in_view_) {
     const auto found = leaves.occupied_by_class.find(id);
     const std::size_t of_class = found == leaves.occupied_by_class.end() ? 0 : found->second;
-    summary.objects.push_back({classes_.name_of(id), count, of_class});
+    const std::string& name = classes_.name_of(id);
+    summary.objects.push_back({name, present[name], count, of_class});
   }
   std::sort(summary.objects.begin(), summary.objects.end(),
             [](const ObjectClass& a, const ObjectClass& b) { return a.name < b.name; });

@@ -12,6 +12,7 @@
 #include "services/map_server/lib/keyframe.hpp"
 #include "services/map_server/lib/keyframe_view.hpp"
 #include "services/map_server/lib/semantic_octree.hpp"
+#include "services/map_server/lib/tags/tag_library.hpp"
 #include "services/map_server/lib/voxel_grid.hpp"
 
 namespace tsg {
@@ -20,6 +21,7 @@ struct MapConfig {
   DepthFilterConfig depth;
   ExclusionConfig exclusion;
   OctreeConfig octree;
+  TagConfig tags;
   double cloud_voxel_m = 0.02;  ///< as fine as the depth of a Kinect is good at 3 m
   double max_extent_m = 500.0;  ///< a camera farther from the origin is a mistake
 
@@ -35,6 +37,7 @@ struct Integration {
 /// A class of objects in the map.
 struct ObjectClass {
   std::string name;
+  int count = 0;           ///< that stand in the map now (TagLibrary)
   int max_in_view = 0;     ///< most instances in one keyframe: a lower bound of their number
   std::size_t leaves = 0;  ///< occupied leaves of this class
 };
@@ -70,6 +73,7 @@ class SemanticMap {
   [[nodiscard]] Cloud static_cloud() const;
   [[nodiscard]] const SemanticOctree& octree() const { return octree_; }
   [[nodiscard]] const ClassTable& classes() const { return classes_; }
+  [[nodiscard]] const TagLibrary& tags() const { return tags_; }
 
   /// Goes through the whole map: for commands, not for every keyframe.
   [[nodiscard]] MapSummary summary() const;
@@ -88,6 +92,7 @@ class SemanticMap {
   KeyframeViewer viewer_;
   VoxelGrid cloud_;
   SemanticOctree octree_;
+  TagLibrary tags_;
   std::size_t keyframes_ = 0;
   std::size_t keyframes_without_labels_ = 0;
   std::size_t points_raw_ = 0;

@@ -197,9 +197,14 @@ bool SemanticOctree::isNodeCollapsible(const SemanticNode* node) const {
   return true;
 }
 
-bool SemanticOctree::is_occupied_at(const Eigen::Vector3f& position) const {
+Place SemanticOctree::place_at(const Eigen::Vector3f& position) const {
   const SemanticNode* node = search(position.x(), position.y(), position.z());
-  return node != nullptr && isNodeOccupied(node);
+  if (node == nullptr) return Place::kUnknown;
+  return isNodeOccupied(node) ? Place::kOccupied : Place::kFree;
+}
+
+bool SemanticOctree::is_occupied_at(const Eigen::Vector3f& position) const {
+  return place_at(position) == Place::kOccupied;
 }
 
 SemanticOctree::LeafCounts SemanticOctree::count_leaves() const {

@@ -27,6 +27,9 @@ struct OctreeConfig {
   [[nodiscard]] std::vector<std::string> problems() const;
 };
 
+/// What a map knows of a place.
+enum class Place { kUnknown, kFree, kOccupied };
+
 /// A node of OctoMap's colour tree that also knows its class. Written to files as such a node.
 class SemanticNode : public octomap::ColorOcTreeNode {
  public:
@@ -67,6 +70,7 @@ class SemanticOctree : public octomap::OccupancyOcTreeBase<SemanticNode> {
                  const std::vector<Eigen::Vector3f>& free_ends,
                  const ClassTable& classes);
 
+  [[nodiscard]] Place place_at(const Eigen::Vector3f& position) const;
   [[nodiscard]] bool is_occupied_at(const Eigen::Vector3f& position) const;
 
   struct LeafCounts {

@@ -41,4 +41,7 @@ struct Tag {
   TagState state = TagState::kStatic;
 };
 
+/// Whether the object still stands at the tag's place.
+[[nodiscard]] inline bool is_present(const Tag& tag) { return tag.state != TagState::kGone; }
+
 }  // namespace tsg
