@@ -25,6 +25,9 @@ MapServerConfig load_map_server_config(const ConfigFile& file) {
   reader.read("exclusion.mask_margin_px", map.exclusion.margin_px);
   reader.read("exclusion.mask_growth_px", map.exclusion.growth_px);
   reader.read("exclusion.mask_growth_depth_ratio", map.exclusion.growth_depth_ratio);
+  reader.read("outliers.neighbours", map.outliers.neighbours);
+  reader.read("outliers.max_sigma", map.outliers.max_sigma);
+  reader.read("outliers.kept_within_m", map.outliers.kept_within_m);
   reader.read("occupancy.hit_probability", map.octree.hit_probability);
   reader.read("occupancy.miss_probability", map.octree.miss_probability);
   reader.read("occupancy.min_probability", map.octree.min_probability);

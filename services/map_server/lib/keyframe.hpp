@@ -9,6 +9,9 @@
 
 namespace tsg {
 
+// slam has a Keyframe of its own, and tsgctl holds both libraries: one name for the linker each.
+inline namespace mapped {
+
 /// A frame that the map keeps, with its place.
 struct Keyframe {
   std::uint64_t id = 0;
@@ -17,6 +20,8 @@ struct Keyframe {
   bool has_labels = false;         ///< false: no mask of this frame came in time
   InstanceSegmentation instances;  ///< empty where has_labels is false
 };
+
+}  // namespace mapped
 
 /// Says why a keyframe cannot go into a map whose content lies within `max_extent_m` of the origin
 /// along each axis: pose, image sizes and types, labels without an instance, no depth at all.

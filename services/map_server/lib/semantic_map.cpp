@@ -36,6 +36,7 @@ Expected<std::size_t> write_map_file(const std::filesystem::path& path, std::str
 std::vector<std::string> MapConfig::problems() const {
   std::vector<std::string> found = depth.problems();
   append(found, exclusion.problems());
+  append(found, outliers.problems());
   append(found, octree.problems());
   append(found, tags.problems());
   if (!(cloud_voxel_m >= 0.002 && cloud_voxel_m <= octree.resolution_m)) {
@@ -94,6 +95,12 @@ void SemanticMap::count_instances(const KeyframeView& view) {
 }
 
 Cloud SemanticMap::static_cloud() const {
+  Cloud cloud = occupied_cloud();
+  OutlierFilter(config_.outliers).apply(cloud);
+  return cloud;
+}
+
+Cloud SemanticMap::occupied_cloud() const {
   Cloud cloud = cloud_.to_cloud();
   std::erase_if(
       cloud, [this](const CloudPoint& point) { return !octree_.is_occupied_at(point.position); });

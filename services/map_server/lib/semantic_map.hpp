@@ -11,6 +11,7 @@
 #include "services/map_server/lib/class_table.hpp"
 #include "services/map_server/lib/keyframe.hpp"
 #include "services/map_server/lib/keyframe_view.hpp"
+#include "services/map_server/lib/outlier_filter.hpp"
 #include "services/map_server/lib/semantic_octree.hpp"
 #include "services/map_server/lib/tags/tag_library.hpp"
 #include "services/map_server/lib/voxel_grid.hpp"
@@ -20,6 +21,7 @@ namespace tsg {
 struct MapConfig {
   DepthFilterConfig depth;
   ExclusionConfig exclusion;
+  OutlierConfig outliers;
   OctreeConfig octree;
   TagConfig tags;
   double cloud_voxel_m = 0.02;  ///< as fine as the depth of a Kinect is good at 3 m
@@ -70,6 +72,8 @@ class SemanticMap {
   Expected<Integration> integrate(const Keyframe& keyframe);
 
   /// The cloud without points whose leaf has been seen free since: people who were missed fade.
+  [[nodiscard]] Cloud occupied_cloud() const;
+  /// The same without what lies apart from all else (OutlierFilter).
   [[nodiscard]] Cloud static_cloud() const;
   [[nodiscard]] const SemanticOctree& octree() const { return octree_; }
   [[nodiscard]] const ClassTable& classes() const { return classes_; }

@@ -78,6 +78,10 @@ Voxel VoxelGrid::voxel(std::size_t index) const {
   return {{axis(0), axis(1), axis(2)}, {cell.position, colour, cell.vote.winner(), cell.weight}};
 }
 
+std::size_t VoxelGrid::index_of(const Eigen::Vector3f& position) const {
+  return slots_[slot_of(key_of(position))] - 1;
+}
+
 Cloud VoxelGrid::to_cloud() const {
   Cloud cloud;
   cloud.reserve(size());
@@ -98,9 +102,7 @@ std::uint64_t VoxelGrid::key_of(const Eigen::Vector3f& position) const {
 VoxelGrid::Cell& VoxelGrid::cell_with(std::uint64_t key) {
   if (last_ < cells_.size() && cells_[last_].key == key) return cells_[last_];
   if (2 * (cells_.size() + 1) > slots_.size()) grow();
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = hash(key) & mask;
-  while (slots_[slot] != 0 && cells_[slots_[slot] - 1].key != key) slot = (slot + 1) & mask;
+  const std::size_t slot = slot_of(key);
   if (slots_[slot] == 0) {
     cells_.push_back({});
     cells_.back().key = key;
@@ -108,6 +110,13 @@ VoxelGrid::Cell& VoxelGrid::cell_with(std::uint64_t key) {
   }
   last_ = slots_[slot] - 1;
   return cells_[last_];
+}
+
+std::size_t VoxelGrid::slot_of(std::uint64_t key) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash(key) & mask;
+  while (slots_[slot] != 0 && cells_[slots_[slot] - 1].key != key) slot = (slot + 1) & mask;
+  return slot;
 }
 
 void VoxelGrid::grow() {

@@ -41,6 +41,8 @@ class VoxelGrid {
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
   /// In the order in which the cells got their first point, so results are reproducible.
   [[nodiscard]] Voxel voxel(std::size_t index) const;
+  /// The index of the cell of a point that has been added.
+  [[nodiscard]] std::size_t index_of(const Eigen::Vector3f& position) const;
   [[nodiscard]] Cloud to_cloud() const;
 
  private:
@@ -54,6 +56,8 @@ class VoxelGrid {
 
   [[nodiscard]] std::uint64_t key_of(const Eigen::Vector3f& position) const;
   Cell& cell_with(std::uint64_t key);
+  /// Where the cell is noted, or would be.
+  [[nodiscard]] std::size_t slot_of(std::uint64_t key) const;
   void grow();
 
   double cells_per_metre_;
