@@ -10,6 +10,7 @@
 #include "services/tsgctl/echo_command.hpp"
 #include "services/tsgctl/eval_command.hpp"
 #include "services/tsgctl/eval_dynamic_command.hpp"
+#include "services/tsgctl/eval_map_command.hpp"
 #include "services/tsgctl/eval_tum_command.hpp"
 #include "services/tsgctl/hz_command.hpp"
 #include "services/tsgctl/map_command.hpp"
@@ -40,7 +41,9 @@ int main(int argc, char** argv) {
   tsg::add_run_command(app);
   tsg::add_map_command(app);
   tsg::add_model_command(app);
-  tsg::add_eval_dynamic_command(tsg::add_eval_command(app));
+  CLI::App& eval = tsg::add_eval_command(app);
+  tsg::add_eval_dynamic_command(eval);
+  tsg::add_eval_map_command(eval);
   tsg::add_eval_tum_command(app);
   tsg::add_bench_command(app);
   tsg::add_report_command(app);
