@@ -1,19 +1,18 @@
 #include "services/map_server/lib/voxel_grid.hpp"
 
+#include "services/map_server/lib/voxel_key.hpp"
+
 namespace tsg {
 namespace {
 
-constexpr int kBitsPerAxis = 21;
-constexpr std::int64_t kOffset = std::int64_t{1} << (kBitsPerAxis - 1);
-constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kBitsPerAxis) - 1;
 constexpr std::size_t kFirstSlots = 1024;
 
 /// Cells of one cube of 4 a side lie together, so that neighbours share cache lines; the cubes are
 /// spread by the finaliser of MurmurHash3.
 std::size_t hash(std::uint64_t key) {
-  constexpr std::uint64_t kLowBits = 3U | 3ULL << kBitsPerAxis | 3ULL << (2 * kBitsPerAxis);
+  constexpr std::uint64_t kLowBits = 3U | 3ULL << kVoxelKeyBits | 3ULL << (2 * kVoxelKeyBits);
   const std::uint64_t within =
-      (key & 3U) | (key >> (kBitsPerAxis - 2) & 12U) | (key >> (2 * kBitsPerAxis - 4) & 48U);
+      (key & 3U) | (key >> (kVoxelKeyBits - 2) & 12U) | (key >> (2 * kVoxelKeyBits - 4) & 48U);
   std::uint64_t cube = key & ~kLowBits;
   cube ^= cube >> 33U;
   cube *= 0xff51afd7ed558ccdULL;
@@ -70,8 +69,8 @@ void VoxelGrid::clear() {
 Voxel VoxelGrid::voxel(std::size_t index) const {
   const Cell& cell = cells_[index];
   const auto axis = [&cell](int number) {
-    const auto bits = (cell.key >> (number * kBitsPerAxis)) & kAxisMask;
-    return static_cast<int>(static_cast<std::int64_t>(bits) - kOffset);
+    const auto bits = (cell.key >> (number * kVoxelKeyBits)) & kVoxelKeyMask;
+    return static_cast<int>(static_cast<std::int64_t>(bits) - kVoxelKeyOffset);
   };
   const Rgb colour{to_channel(cell.colour.x()), to_channel(cell.colour.y()),
                    to_channel(cell.colour.z())};
@@ -93,8 +92,8 @@ std::uint64_t VoxelGrid::key_of(const Eigen::Vector3f& position) const {
   std::uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const std::int64_t cell = floor_of(cells_per_metre_ * static_cast<double>(position[axis]));
-    const auto bits = static_cast<std::uint64_t>(cell + kOffset);
-    key |= (bits & kAxisMask) << static_cast<unsigned>(axis * kBitsPerAxis);
+    const auto bits = static_cast<std::uint64_t>(cell + kVoxelKeyOffset);
+    key |= (bits & kVoxelKeyMask) << static_cast<unsigned>(axis * kVoxelKeyBits);
   }
   return key;
 }

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "services/map_server/lib/voxel_key.hpp"
+
 namespace tsg {
 namespace {
 
@@ -19,11 +21,9 @@ constexpr float kCellGrowth_per_m = 0.004F;
 /// Smaller pieces, relative to the biggest, are rims and noise.
 constexpr double kMinPieceShare = 0.1;
 
-constexpr int kBitsPerAxis = 21;
-constexpr std::int64_t kOffset = std::int64_t{1} << (kBitsPerAxis - 1);
-
 std::int64_t key_at(std::int64_t x, std::int64_t y, std::int64_t z) {
-  return x + kOffset + ((y + kOffset) << kBitsPerAxis) + ((z + kOffset) << (2 * kBitsPerAxis));
+  return x + kVoxelKeyOffset + ((y + kVoxelKeyOffset) << kVoxelKeyBits) +
+         ((z + kVoxelKeyOffset) << (2 * kVoxelKeyBits));
 }
 
 /// Half of the 26 neighbours of a cell; the other half has the cell as neighbour.

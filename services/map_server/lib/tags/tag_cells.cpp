@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "services/map_server/lib/voxel_key.hpp"
+
 namespace tsg {
 namespace {
 
@@ -12,20 +14,17 @@ namespace {
 /// grows with the square of the distance (Khoshelham and Elberink 2012: 0.0014 without steps).
 constexpr float kNoiseAtOneMetre_m = 0.002F;
 
-constexpr unsigned kBitsPerAxis = 21;
-constexpr std::int64_t kOffset = std::int64_t{1} << (kBitsPerAxis - 1);
-constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kBitsPerAxis) - 1;
 /// One step along each axis.
-constexpr std::array<std::uint64_t, 3> kSteps{1, std::uint64_t{1} << kBitsPerAxis,
-                                              std::uint64_t{1} << (2 * kBitsPerAxis)};
+constexpr std::array<std::uint64_t, 3> kSteps{1, std::uint64_t{1} << kVoxelKeyBits,
+                                              std::uint64_t{1} << (2 * kVoxelKeyBits)};
 
 std::uint64_t key_of(const Eigen::Vector3f& position, double voxel_m) {
   std::uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto cell =
         static_cast<std::int64_t>(std::floor(static_cast<double>(position[axis]) / voxel_m));
-    key |= (static_cast<std::uint64_t>(cell + kOffset) & kAxisMask)
-           << (static_cast<unsigned>(axis) * kBitsPerAxis);
+    key |= (static_cast<std::uint64_t>(cell + kVoxelKeyOffset) & kVoxelKeyMask)
+           << (static_cast<unsigned>(axis) * kVoxelKeyBits);
   }
   return key;
 }
@@ -34,9 +33,11 @@ std::uint64_t key_of(const Eigen::Vector3f& position, double voxel_m) {
 std::uint64_t coarser(std::uint64_t key) {
   std::uint64_t coarse = 0;
   for (unsigned axis = 0; axis < 3; ++axis) {
-    const auto cell = static_cast<std::int64_t>(key >> (axis * kBitsPerAxis) & kAxisMask) - kOffset;
+    const auto cell =
+        static_cast<std::int64_t>(key >> (axis * kVoxelKeyBits) & kVoxelKeyMask) - kVoxelKeyOffset;
     const std::int64_t half = (cell - (cell & 1)) / 2;
-    coarse |= (static_cast<std::uint64_t>(half + kOffset) & kAxisMask) << (axis * kBitsPerAxis);
+    coarse |= (static_cast<std::uint64_t>(half + kVoxelKeyOffset) & kVoxelKeyMask)
+              << (axis * kVoxelKeyBits);
   }
   return coarse;
 }

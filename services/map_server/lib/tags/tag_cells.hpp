@@ -55,6 +55,9 @@ class TagCells {
   std::vector<TagCell> cells_;
 };
 
+/// Voxels of a cloud that overlaps are measured by: good to 3 %.
+inline constexpr std::size_t kOverlapSamples = 200;
+
 /// The share of the voxels of `part` near which `whole` has some, from at most `samples` of them;
 /// 0 where either is empty.
 [[nodiscard]] double share_within(const TagCells& part, const TagCells& whole, std::size_t samples);

@@ -22,7 +22,6 @@ constexpr float kSameSize = 1.35F;
 constexpr std::size_t kMaxGlimpses = 500;
 /// Two tags of different classes that share so much both ways are one thing with two names.
 constexpr double kSameThingShare = 0.5;
-constexpr std::size_t kSamples = 200;
 
 float longest(const Eigen::AlignedBox3f& box) { return box.sizes().maxCoeff(); }
 
@@ -117,7 +116,7 @@ void TagLibrary::fuse(std::size_t record, const SeenInstance& seen, const Keyfra
   TagRecord& tag = records_[record];
   if (!is_present(tag)) {  // it is back, or was never away
     const bool is_as_before =
-        share_within(seen.cells, tag.cells, kSamples) >= config_.merge_overlap;
+        share_within(seen.cells, tag.cells, kOverlapSamples) >= config_.merge_overlap;
     if (is_as_before) {
       tag.state = tag.has_moved ? TagState::kMoved : TagState::kStatic;
     } else {
@@ -251,8 +250,8 @@ bool TagLibrary::is_shadowed(const TagRecord& record) const {
     const bool is_stronger =
         std::tuple(other.score_sum, record.id) > std::tuple(record.score_sum, other.id);
     return is_stronger && other.box.intersects(record.box) &&
-           share_within(record.cells, other.cells, kSamples) >= kSameThingShare &&
-           share_within(other.cells, record.cells, kSamples) >= kSameThingShare;
+           share_within(record.cells, other.cells, kOverlapSamples) >= kSameThingShare &&
+           share_within(other.cells, record.cells, kOverlapSamples) >= kSameThingShare;
   });
 }
 

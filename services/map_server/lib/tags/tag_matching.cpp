@@ -6,7 +6,6 @@
 namespace tsg {
 namespace {
 
-constexpr std::size_t kSamples = 200;  // of a cloud, to measure overlap: good to 3 %
 /// The other side of a thing does not make it wider; a neighbour does.
 constexpr float kSameWidth = 1.2F;
 /// Boxes of neighbours do not share so much of the smaller one; those of parts of one thing may.
@@ -45,7 +44,7 @@ float box_share(const Eigen::AlignedBox3f& a, const Eigen::AlignedBox3f& b) {
 }
 
 double overlap(const TagCells& a, const TagCells& b) {
-  return std::max(share_within(a, b, kSamples), share_within(b, a, kSamples));
+  return std::max(share_within(a, b, kOverlapSamples), share_within(b, a, kOverlapSamples));
 }
 
 bool is_followed(const SeenInstance& seen, const TagRecord& record) {

@@ -6,15 +6,15 @@
 namespace tsg {
 namespace {
 
-constexpr std::size_t kSamples = 64;     // voxels of a tag: a share good to 6 %
-constexpr std::size_t kViewStride = 16;  // of a keyframe's points: enough for its outline
+constexpr std::size_t kPlaceSamples = 64;  // voxels of a tag: a share good to 6 %
+constexpr std::size_t kViewStride = 16;    // of a keyframe's points: enough for its outline
 
 }  // namespace
 
 PlaceShares places_of(const TagCells& cells, const PlaceOf& place_of) {
   PlaceShares shares;
   if (cells.empty()) return shares;
-  const std::size_t stride = 1 + (cells.size() - 1) / kSamples;
+  const std::size_t stride = 1 + (cells.size() - 1) / kPlaceSamples;
   double looked_at = 0.0;
   for (std::size_t i = 0; i < cells.size(); i += stride) {
     looked_at += 1.0;
