@@ -11,7 +11,7 @@ IntegrationLoop::IntegrationLoop(const MapServerConfig& config, Progress& progre
       jobs_(static_cast<std::size_t>(config.queue_keyframes), WhenFull::kBlock),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-bool IntegrationLoop::submit(Keyframe keyframe, const std::stop_token& stop) {
+bool IntegrationLoop::submit(MapKeyframe keyframe, const std::stop_token& stop) {
   return jobs_.push(Job(std::move(keyframe)), stop);
 }
 
@@ -30,12 +30,12 @@ void IntegrationLoop::run(const std::stop_token& stop) {
     } else if (drain_until && Clock::now() > *drain_until) {
       progress_.add_discarded();
     } else {
-      integrate(std::get<Keyframe>(*job));
+      integrate(std::get<MapKeyframe>(*job));
     }
   }
 }
 
-void IntegrationLoop::integrate(const Keyframe& keyframe) {
+void IntegrationLoop::integrate(const MapKeyframe& keyframe) {
   Stopwatch watch;
   const auto integrated = map_.integrate(keyframe);
   if (integrated) {

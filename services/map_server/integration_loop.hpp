@@ -29,7 +29,7 @@ class IntegrationLoop {
 
   /// Hands a keyframe over; it must own its pixels. Waits while the queue is full; false where
   /// `stop` came first.
-  bool submit(Keyframe keyframe, const std::stop_token& stop);
+  bool submit(MapKeyframe keyframe, const std::stop_token& stop);
 
   /// Asks the map: `question` runs on the loop's thread, after the keyframes submitted before, and
   /// is answered even while the loop drains. Nothing where `stop` came before there was room.
@@ -53,10 +53,10 @@ class IntegrationLoop {
 
  private:
   using MapQuestion = std::function<void(const SemanticMap&)>;
-  using Job = std::variant<Keyframe, MapQuestion>;
+  using Job = std::variant<MapKeyframe, MapQuestion>;
 
   void run(const std::stop_token& stop);
-  void integrate(const Keyframe& keyframe);
+  void integrate(const MapKeyframe& keyframe);
 
   Progress& progress_;
   Log log_;

@@ -6,7 +6,7 @@
 
 namespace tsg {
 
-Expected<Keyframe> copy_keyframe(const tsg_Keyframe& message) {
+Expected<MapKeyframe> copy_keyframe(const tsg_Keyframe& message) {
   auto T_world_camera = to_se3(message.T_world_camera);
   if (!T_world_camera) return tl::unexpected(T_world_camera.error());
   auto frame = view_as_frame(message);
@@ -14,8 +14,8 @@ Expected<Keyframe> copy_keyframe(const tsg_Keyframe& message) {
   auto instances = view_as_instances(message);
   if (!instances) return tl::unexpected(instances.error());
 
-  Keyframe keyframe{message.id, *T_world_camera, std::move(*frame), message.has_labels,
-                    std::move(*instances)};
+  MapKeyframe keyframe{message.id, *T_world_camera, std::move(*frame), message.has_labels,
+                       std::move(*instances)};
   keyframe.frame.colour = keyframe.frame.colour.clone();
   keyframe.frame.depth = keyframe.frame.depth.clone();
   keyframe.instances.labels = keyframe.instances.labels.clone();

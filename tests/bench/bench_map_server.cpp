@@ -22,8 +22,8 @@ const double kCloudVoxel_m = MapConfig{}.cloud_voxel_m;
 /// view; turned by 6 degrees from keyframe to keyframe, so that each sees some new space.
 class Room {
  public:
-  static Keyframe keyframe(int index) {
-    Keyframe keyframe;
+  static MapKeyframe keyframe(int index) {
+    MapKeyframe keyframe;
     const double yaw = index * 6.0 * M_PI / 180.0;
     Eigen::Matrix3d R_level_camera;
     R_level_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -37,7 +37,7 @@ class Room {
   }
 
  private:
-  static void render(Keyframe& keyframe) {
+  static void render(MapKeyframe& keyframe) {
     RgbdFrame& frame = keyframe.frame;
     frame.colour = cv::Mat(480, 640, CV_8UC3);
     frame.depth = cv::Mat(480, 640, CV_16UC1);
@@ -83,9 +83,9 @@ class Room {
   }
 };
 
-const std::vector<Keyframe>& keyframes() {
-  static const std::vector<Keyframe> made = [] {
-    std::vector<Keyframe> all;
+const std::vector<MapKeyframe>& keyframes() {
+  static const std::vector<MapKeyframe> made = [] {
+    std::vector<MapKeyframe> all;
     for (int i = 0; i < kKeyframes; ++i) all.push_back(Room::keyframe(i));
     return all;
   }();
@@ -104,7 +104,7 @@ const std::vector<Scan>& scans() {
     ClassTable classes;
     BackProjector projector({}, {});
     VoxelGrid grid(kCloudVoxel_m);
-    for (const Keyframe& keyframe : keyframes()) {
+    for (const MapKeyframe& keyframe : keyframes()) {
       Cloud points = voxel_filter(projector.project(keyframe, classes).points, grid);
       const Eigen::Isometry3f T_world_camera = keyframe.T_world_camera.to_isometry().cast<float>();
       for (CloudPoint& point : points) point.position = T_world_camera * point.position;
@@ -196,7 +196,8 @@ void whole_keyframe(benchmark::State& state) {
   (void)keyframes();
   for (auto _ : state) {
     SemanticMap map{MapConfig{}};
-    for (const Keyframe& keyframe : keyframes()) benchmark::DoNotOptimize(map.integrate(keyframe));
+    for (const MapKeyframe& keyframe : keyframes())
+      benchmark::DoNotOptimize(map.integrate(keyframe));
   }
   state.SetItemsProcessed(state.iterations() * kKeyframes);
   state.counters["time_per_keyframe"] =

@@ -43,8 +43,8 @@ class RecordedRoom {
 
   [[nodiscard]] std::size_t frames() const { return folder_.frames.size(); }
 
-  [[nodiscard]] Keyframe keyframe(std::size_t index) const {
-    Keyframe keyframe;
+  [[nodiscard]] MapKeyframe keyframe(std::size_t index) const {
+    MapKeyframe keyframe;
     keyframe.id = index;
     keyframe.frame = value_or_throw(read_frame(folder_, index));
     keyframe.T_world_camera = pose_at(truth_, keyframe.frame.stamp_ns);
@@ -63,10 +63,10 @@ using Leaf = std::tuple<int, int, int>;
 
 /// Leaves in which a person was seen, well inside the mask and at least one leaf away from any
 /// leaf in which something else was seen in the same keyframe.
-std::set<Leaf> leaves_of_people(const Keyframe& keyframe, double leaf_m) {
+std::set<Leaf> leaves_of_people(const MapKeyframe& keyframe, double leaf_m) {
   ExclusionConfig nobody;
   nobody.dynamic_classes.clear();
-  Keyframe all = keyframe;
+  MapKeyframe all = keyframe;
   for (Instance& instance : all.instances.instances) instance.motion = MotionVerdict::kStatic;
   ClassTable classes;
   const ClassId person = classes.id_of("person");
@@ -106,7 +106,7 @@ TEST(MapOfWalkingPeople, HoldsNoPeopleAndKnowsTheFurniture) {
   SemanticMap map{MapConfig{}};
   std::set<Leaf> people;
   for (std::size_t index = 0; index < room.frames(); index += kEveryFrame) {
-    const Keyframe keyframe = room.keyframe(index);
+    const MapKeyframe keyframe = room.keyframe(index);
     people.merge(leaves_of_people(keyframe, map.octree().getResolution()));
     const auto integrated = map.integrate(keyframe);
     ASSERT_TRUE(integrated) << integrated.error().message;
@@ -127,7 +127,7 @@ TEST(MapOfWalkingPeople, WouldHoldThemWithoutMasks) {
   TSG_REQUIRE_SHARED("data/rendered/walking_xyz");
   const RecordedRoom room(shared_dir() / "data/rendered/walking_xyz");
   SemanticMap map{MapConfig{}};
-  Keyframe keyframe = room.keyframe(130);
+  MapKeyframe keyframe = room.keyframe(130);
   const std::set<Leaf> people = leaves_of_people(keyframe, map.octree().getResolution());
   keyframe.has_labels = false;
   keyframe.instances = {};

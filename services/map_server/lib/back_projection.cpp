@@ -17,7 +17,7 @@ cv::Mat1d matrix_of(const CameraModel& camera) {
 }
 
 /// The class of each value of the label image.
-std::array<ClassId, kMaxInstances + 1> classes_of_labels(const Keyframe& keyframe,
+std::array<ClassId, kMaxInstances + 1> classes_of_labels(const MapKeyframe& keyframe,
                                                          ClassTable& classes) {
   std::array<ClassId, kMaxInstances + 1> ids{};
   ids[0] = keyframe.has_labels ? kBackgroundClass : kNotSegmentedClass;
@@ -32,7 +32,7 @@ std::array<ClassId, kMaxInstances + 1> classes_of_labels(const Keyframe& keyfram
 BackProjector::BackProjector(DepthFilterConfig depth, ExclusionConfig exclusion)
     : depth_(depth), exclusion_(std::move(exclusion)) {}
 
-KeyframeCloud BackProjector::project(const Keyframe& keyframe, ClassTable& classes) {
+KeyframeCloud BackProjector::project(const MapKeyframe& keyframe, ClassTable& classes) {
   const RgbdFrame& frame = keyframe.frame;
   prepare_rays(frame.camera);
   cv::Mat1b excluded = excluded_pixels(keyframe, exclusion_);

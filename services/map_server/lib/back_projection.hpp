@@ -32,7 +32,7 @@ class BackProjector {
   BackProjector(DepthFilterConfig depth, ExclusionConfig exclusion);
 
   /// `keyframe` must have passed check_keyframe(). New class names are added to `classes`.
-  [[nodiscard]] KeyframeCloud project(const Keyframe& keyframe, ClassTable& classes);
+  [[nodiscard]] KeyframeCloud project(const MapKeyframe& keyframe, ClassTable& classes);
 
  private:
   void prepare_rays(const CameraModel& camera);

@@ -11,8 +11,8 @@ namespace {
 
 CameraModel small_camera() { return {64, 48, 50.0, 60.0, 31.0, 23.0, {}}; }
 
-Keyframe wall(const CameraModel& camera, std::uint16_t depth_mm) {
-  Keyframe keyframe;
+MapKeyframe wall(const CameraModel& camera, std::uint16_t depth_mm) {
+  MapKeyframe keyframe;
   keyframe.frame.camera = camera;
   keyframe.frame.depth_units_per_metre = 1000.0;
   keyframe.frame.colour = cv::Mat(camera.height, camera.width, CV_8UC3, cv::Scalar(30, 20, 10));
@@ -22,7 +22,7 @@ Keyframe wall(const CameraModel& camera, std::uint16_t depth_mm) {
   return keyframe;
 }
 
-KeyframeCloud project(const Keyframe& keyframe) {
+KeyframeCloud project(const MapKeyframe& keyframe) {
   ClassTable classes;
   return BackProjector({}, {}).project(keyframe, classes);
 }
@@ -81,12 +81,12 @@ TEST(BackProjection, FollowsAChangeOfTheCamera) {
 TEST(BackProjection, LeavesOutPixelsThatNoPinholeCameraCouldSee) {
   CameraModel absurd = small_camera();
   absurd.fx = 1e-6;
-  Keyframe keyframe = wall(absurd, 2000);
+  MapKeyframe keyframe = wall(absurd, 2000);
   EXPECT_LE(project(keyframe).points.size(), 48U);  // at most the column of the principal point
 }
 
 TEST(BackProjection, LabelsPointsByInstance) {
-  Keyframe keyframe = wall(small_camera(), 2000);
+  MapKeyframe keyframe = wall(small_camera(), 2000);
   keyframe.instances.instances = {{"chair", 1.0F, {}, MotionVerdict::kStatic}};
   keyframe.instances.labels.rowRange(0, 10).setTo(1);
   const KeyframeCloud cloud = project(keyframe);
@@ -97,7 +97,7 @@ TEST(BackProjection, LabelsPointsByInstance) {
 }
 
 TEST(BackProjection, SaysThatPointsWithoutAMaskMayBeAnything) {
-  Keyframe keyframe = wall(small_camera(), 2000);
+  MapKeyframe keyframe = wall(small_camera(), 2000);
   keyframe.has_labels = false;
   keyframe.instances.labels.release();
   const KeyframeCloud cloud = project(keyframe);
@@ -112,7 +112,7 @@ TEST(BackProjection, SeesFreeSpaceInFrontOfWhatIsTooFar) {
 }
 
 TEST(BackProjection, MakesNoClaimWhereNothingWasMeasuredOrAPersonStands) {
-  Keyframe keyframe = wall(small_camera(), 8000);
+  MapKeyframe keyframe = wall(small_camera(), 8000);
   keyframe.frame.depth.colRange(0, 32).setTo(0);
   keyframe.instances.instances = {{"person", 1.0F, {}, MotionVerdict::kUnknown}};
   keyframe.instances.labels.colRange(32, 64).setTo(1);
@@ -126,7 +126,7 @@ TEST(BackProjection, NeverMakesMorePointsThanPixelsNorLeavesTheRangeForAnyImages
   constexpr unsigned kSeed = 7;
   SCOPED_TRACE(kSeed);
   cv::RNG random(kSeed);
-  Keyframe keyframe = wall(small_camera(), 0);
+  MapKeyframe keyframe = wall(small_camera(), 0);
   keyframe.instances.instances = {{"person", 1.0F, {}, MotionVerdict::kUnknown},
                                   {"chair", 1.0F, {}, MotionVerdict::kMoving},
                                   {"tv", 1.0F, {}, MotionVerdict::kStatic}};

@@ -15,7 +15,7 @@ cv::Mat square(int radius) {
   return cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1});
 }
 
-cv::Mat1b pixels_of_excluded(const Keyframe& keyframe, const ExclusionConfig& config) {
+cv::Mat1b pixels_of_excluded(const MapKeyframe& keyframe, const ExclusionConfig& config) {
   cv::Mat1b table(1, 256, std::uint8_t{0});
   const auto& instances = keyframe.instances.instances;
   for (std::size_t i = 0; i < instances.size(); ++i) {
@@ -108,7 +108,7 @@ bool is_excluded(const Instance& instance, const ExclusionConfig& config) {
   return std::find(classes.begin(), classes.end(), instance.class_name) != classes.end();
 }
 
-cv::Mat1b excluded_pixels(const Keyframe& keyframe, const ExclusionConfig& config) {
+cv::Mat1b excluded_pixels(const MapKeyframe& keyframe, const ExclusionConfig& config) {
   if (!keyframe.has_labels) return {keyframe.frame.depth.size(), std::uint8_t{0}};
   cv::Mat1b mask = pixels_of_excluded(keyframe, config);
   if (cv::countNonZero(mask) == 0) return mask;

@@ -28,6 +28,6 @@ struct ExclusionConfig {
 [[nodiscard]] bool is_excluded(const Instance& instance, const ExclusionConfig& config);
 
 /// 255 where a pixel shows an excluded instance or may do so; 0 elsewhere. All 0 without labels.
-[[nodiscard]] cv::Mat1b excluded_pixels(const Keyframe& keyframe, const ExclusionConfig& config);
+[[nodiscard]] cv::Mat1b excluded_pixels(const MapKeyframe& keyframe, const ExclusionConfig& config);
 
 }  // namespace tsg

@@ -8,8 +8,8 @@ namespace tsg {
 namespace {
 
 /// A wall at 3 m with one instance at 1 m in columns 40..59.
-Keyframe wall_with(const char* class_name, MotionVerdict motion = MotionVerdict::kUnknown) {
-  Keyframe keyframe;
+MapKeyframe wall_with(const char* class_name, MotionVerdict motion = MotionVerdict::kUnknown) {
+  MapKeyframe keyframe;
   keyframe.frame.depth = cv::Mat1w(60, 100, std::uint16_t{3000});
   keyframe.frame.depth.colRange(40, 60).setTo(1000);
   keyframe.has_labels = true;
@@ -19,7 +19,7 @@ Keyframe wall_with(const char* class_name, MotionVerdict motion = MotionVerdict:
   return keyframe;
 }
 
-cv::Mat1b mask_of(const Keyframe& keyframe) { return excluded_pixels(keyframe, {}); }
+cv::Mat1b mask_of(const MapKeyframe& keyframe) { return excluded_pixels(keyframe, {}); }
 
 TEST(Exclusion, TakesDynamicClassesOutWithAMargin) {
   const cv::Mat1b mask = mask_of(wall_with("person"));
@@ -38,7 +38,7 @@ TEST(Exclusion, TakesADynamicClassOutEvenWhereItStandsStill) {
 }
 
 TEST(Exclusion, FollowsTheBodyBeyondAMaskThatIsTooSmall) {
-  Keyframe keyframe = wall_with("person");
+  MapKeyframe keyframe = wall_with("person");
   keyframe.frame.depth.colRange(60, 70).setTo(1005);  // an arm outside the mask
   const cv::Mat1b mask = mask_of(keyframe);
   EXPECT_EQ(cv::countNonZero(mask.colRange(60, 70)), 60 * 10);
@@ -46,14 +46,14 @@ TEST(Exclusion, FollowsTheBodyBeyondAMaskThatIsTooSmall) {
 }
 
 TEST(Exclusion, DoesNotFollowTheDepthWithoutEnd) {
-  Keyframe keyframe = wall_with("person");
+  MapKeyframe keyframe = wall_with("person");
   keyframe.frame.depth.setTo(1000);  // flat against the wall
   const cv::Mat1b mask = mask_of(keyframe);
   EXPECT_EQ(cv::countNonZero(mask.row(30)), 20 + 2 * 15);
 }
 
 TEST(Exclusion, LeavesEverythingWithoutLabels) {
-  Keyframe keyframe = wall_with("person");
+  MapKeyframe keyframe = wall_with("person");
   keyframe.has_labels = false;
   const cv::Mat1b mask = mask_of(keyframe);
   EXPECT_EQ(mask.size(), cv::Size(100, 60));

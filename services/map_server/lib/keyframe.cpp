@@ -8,7 +8,7 @@
 namespace tsg {
 namespace {
 
-Expected<void> check_pose(const Keyframe& keyframe, double max_extent_m) {
+Expected<void> check_pose(const MapKeyframe& keyframe, double max_extent_m) {
   if (!keyframe.T_world_camera.is_finite()) {
     return make_error(ExitCode::kInvalidNumber,
                       "its pose is not finite; the sender must not publish such a keyframe");
@@ -47,7 +47,7 @@ Expected<void> check_depth(const RgbdFrame& frame) {
                     "registered to the colour camera");
 }
 
-Expected<void> check_labels(const Keyframe& keyframe) {
+Expected<void> check_labels(const MapKeyframe& keyframe) {
   if (!keyframe.has_labels) return {};
   const InstanceSegmentation& instances = keyframe.instances;
   auto size = check_image(instances.labels, keyframe.frame.camera, CV_8UC1, "label");
@@ -63,7 +63,7 @@ Expected<void> check_labels(const Keyframe& keyframe) {
 
 }  // namespace
 
-Expected<void> check_keyframe(const Keyframe& keyframe, double max_extent_m) {
+Expected<void> check_keyframe(const MapKeyframe& keyframe, double max_extent_m) {
   const RgbdFrame& frame = keyframe.frame;
   return check_pose(keyframe, max_extent_m)
       .and_then([&]() -> Expected<void> {

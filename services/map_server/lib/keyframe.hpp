@@ -9,11 +9,8 @@
 
 namespace tsg {
 
-// slam has a Keyframe of its own, and tsgctl holds both libraries: one name for the linker each.
-inline namespace mapped {
-
-/// A frame that the map keeps, with its place.
-struct Keyframe {
+/// A frame that the map keeps, with its place. (slam's Keyframe is another: features and points.)
+struct MapKeyframe {
   std::uint64_t id = 0;
   SE3 T_world_camera;
   RgbdFrame frame;
@@ -21,10 +18,8 @@ struct Keyframe {
   InstanceSegmentation instances;  ///< empty where has_labels is false
 };
 
-}  // namespace mapped
-
 /// Says why a keyframe cannot go into a map whose content lies within `max_extent_m` of the origin
 /// along each axis: pose, image sizes and types, labels without an instance, no depth at all.
-[[nodiscard]] Expected<void> check_keyframe(const Keyframe& keyframe, double max_extent_m);
+[[nodiscard]] Expected<void> check_keyframe(const MapKeyframe& keyframe, double max_extent_m);
 
 }  // namespace tsg

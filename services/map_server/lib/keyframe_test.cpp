@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-Keyframe sound_keyframe() {
-  Keyframe keyframe;
+MapKeyframe sound_keyframe() {
+  MapKeyframe keyframe;
   keyframe.frame.camera = {64, 48, 50.0, 60.0, 31.0, 23.0, {}};
   keyframe.frame.colour = cv::Mat(48, 64, CV_8UC3, cv::Scalar(0, 0, 0));
   keyframe.frame.depth = cv::Mat1w(48, 64, std::uint16_t{1000});
@@ -20,13 +20,13 @@ Keyframe sound_keyframe() {
 }
 
 /// The reason for the refusal, and "accepted" where there is none.
-std::string verdict_on(const Keyframe& keyframe) {
+std::string verdict_on(const MapKeyframe& keyframe) {
   const auto checked = check_keyframe(keyframe, 100.0);
   return checked ? "accepted" : checked.error().message;
 }
 
 TEST(CheckKeyframe, AcceptsASoundOneWithAndWithoutLabels) {
-  Keyframe keyframe = sound_keyframe();
+  MapKeyframe keyframe = sound_keyframe();
   EXPECT_EQ(verdict_on(keyframe), "accepted");
   keyframe.has_labels = true;
   keyframe.instances.labels = cv::Mat1b(48, 64, std::uint8_t{1});
@@ -35,7 +35,7 @@ TEST(CheckKeyframe, AcceptsASoundOneWithAndWithoutLabels) {
 }
 
 TEST(CheckKeyframe, RefusesAPoseThatIsNotFinite) {
-  Keyframe keyframe = sound_keyframe();
+  MapKeyframe keyframe = sound_keyframe();
   keyframe.T_world_camera = SE3(Eigen::Quaterniond::Identity(), {0.0, kNan, 0.0});
   EXPECT_THAT(verdict_on(keyframe), testing::HasSubstr("not finite"));
   keyframe.T_world_camera = SE3(Eigen::Quaterniond(kNan, 0.0, 0.0, 1.0), {0.0, 0.0, 0.0});
@@ -43,26 +43,26 @@ TEST(CheckKeyframe, RefusesAPoseThatIsNotFinite) {
 }
 
 TEST(CheckKeyframe, RefusesAnAbsurdPosition) {
-  Keyframe keyframe = sound_keyframe();
+  MapKeyframe keyframe = sound_keyframe();
   keyframe.T_world_camera = SE3(Eigen::Quaterniond::Identity(), {0.0, -1e6, 0.0});
   EXPECT_THAT(verdict_on(keyframe), testing::HasSubstr("farther than 100 m"));
 }
 
 TEST(CheckKeyframe, RefusesImagesThatDoNotBelongTogether) {
-  Keyframe keyframe = sound_keyframe();
+  MapKeyframe keyframe = sound_keyframe();
   keyframe.frame.depth = cv::Mat1w(24, 32, std::uint16_t{1000});
   EXPECT_THAT(verdict_on(keyframe), testing::HasSubstr("depth image is 32x24"));
 }
 
 TEST(CheckKeyframe, RefusesALabelWithoutInstance) {
-  Keyframe keyframe = sound_keyframe();
+  MapKeyframe keyframe = sound_keyframe();
   keyframe.has_labels = true;
   keyframe.instances.labels = cv::Mat1b(48, 64, std::uint8_t{3});
   EXPECT_THAT(verdict_on(keyframe), testing::HasSubstr("instance 3 of 0"));
 }
 
 TEST(CheckKeyframe, RefusesDepthThatIsAllZeroOrWithoutScale) {
-  Keyframe keyframe = sound_keyframe();
+  MapKeyframe keyframe = sound_keyframe();
   keyframe.frame.depth_units_per_metre = kNan;
   EXPECT_THAT(verdict_on(keyframe), testing::HasSubstr("depth_units_per_metre"));
   keyframe = sound_keyframe();
@@ -71,7 +71,7 @@ TEST(CheckKeyframe, RefusesDepthThatIsAllZeroOrWithoutScale) {
 }
 
 TEST(CheckKeyframe, RefusesAnUnusableCamera) {
-  Keyframe keyframe = sound_keyframe();
+  MapKeyframe keyframe = sound_keyframe();
   keyframe.frame.camera.fx = 0.0;
   EXPECT_THAT(verdict_on(keyframe), testing::HasSubstr("fx must be > 0"));
 }

@@ -6,7 +6,7 @@ namespace tsg {
 namespace {
 
 /// The points of each instance of `keyframe`, unfiltered.
-std::vector<InstanceView> instances_of(const Keyframe& keyframe, const KeyframeCloud& cloud) {
+std::vector<InstanceView> instances_of(const MapKeyframe& keyframe, const KeyframeCloud& cloud) {
   std::vector<InstanceView> views;
   for (const Instance& instance : keyframe.instances.instances) views.push_back({instance, {}});
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
@@ -23,7 +23,7 @@ KeyframeViewer::KeyframeViewer(const DepthFilterConfig& depth,
                                double voxel_m)
     : projector_(depth, exclusion), grid_(voxel_m) {}
 
-KeyframeView KeyframeViewer::view(const Keyframe& keyframe, ClassTable& classes) {
+KeyframeView KeyframeViewer::view(const MapKeyframe& keyframe, ClassTable& classes) {
   KeyframeCloud cloud = projector_.project(keyframe, classes);
   KeyframeView view;
   view.id = keyframe.id;

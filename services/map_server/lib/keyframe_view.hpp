@@ -39,7 +39,7 @@ class KeyframeViewer {
   KeyframeViewer(const DepthFilterConfig& depth, const ExclusionConfig& exclusion, double voxel_m);
 
   /// `keyframe` must have passed check_keyframe(). New class names are added to `classes`.
-  [[nodiscard]] KeyframeView view(const Keyframe& keyframe, ClassTable& classes);
+  [[nodiscard]] KeyframeView view(const MapKeyframe& keyframe, ClassTable& classes);
 
  private:
   BackProjector projector_;

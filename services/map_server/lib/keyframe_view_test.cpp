@@ -11,8 +11,8 @@ namespace {
 constexpr double kVoxelM = 0.1;  // of four pixels a side
 
 /// A wall 2 m ahead: a chair on its left third, a person on its middle third.
-Keyframe chair_and_person() {
-  Keyframe keyframe;
+MapKeyframe chair_and_person() {
+  MapKeyframe keyframe;
   keyframe.id = 7;
   keyframe.frame.stamp_ns = 42;
   keyframe.frame.camera = {96, 64, 80.0, 80.0, 47.5, 31.5, {}};
@@ -33,7 +33,7 @@ std::uint32_t pixels_of(const Cloud& cloud) {
       [](std::uint32_t sum, const CloudPoint& point) { return sum + point.weight; });
 }
 
-KeyframeView view_of(const Keyframe& keyframe) {
+KeyframeView view_of(const MapKeyframe& keyframe) {
   ClassTable classes;
   return KeyframeViewer({}, {}, kVoxelM).view(keyframe, classes);
 }
@@ -61,7 +61,7 @@ TEST(KeyframeView, TellsOfAPersonWithoutShowingAny) {
 }
 
 TEST(KeyframeView, OfAKeyframeWithoutLabelsHasNoInstances) {
-  Keyframe keyframe = chair_and_person();
+  MapKeyframe keyframe = chair_and_person();
   keyframe.has_labels = false;
   keyframe.instances = {};
   const KeyframeView view = view_of(keyframe);

@@ -58,7 +58,7 @@ SemanticMap::SemanticMap(const MapConfig& config)
       octree_(config.octree),
       tags_(config.tags) {}
 
-Expected<Integration> SemanticMap::integrate(const Keyframe& keyframe) {
+Expected<Integration> SemanticMap::integrate(const MapKeyframe& keyframe) {
   if (auto checked = check_keyframe(keyframe, config_.max_extent_m); !checked) {
     return tl::unexpected(checked.error());
   }

@@ -69,7 +69,7 @@ class SemanticMap {
   explicit SemanticMap(const MapConfig& config);
 
   /// Adds a keyframe; one that is not sound is refused with the reason, and changes nothing.
-  Expected<Integration> integrate(const Keyframe& keyframe);
+  Expected<Integration> integrate(const MapKeyframe& keyframe);
 
   /// The cloud without points whose leaf has been seen free since: people who were missed fade.
   [[nodiscard]] Cloud occupied_cloud() const;

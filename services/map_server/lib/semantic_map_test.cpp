@@ -24,8 +24,8 @@ class RoomTest : public testing::Test {
   static constexpr std::uint8_t kTvLabel = 1;
   static constexpr std::uint8_t kPersonLabel = 2;
 
-  Keyframe wall_with_tv() const {
-    Keyframe keyframe;
+  MapKeyframe wall_with_tv() const {
+    MapKeyframe keyframe;
     keyframe.T_world_camera = looking_forward({0.0, 0.0, 1.0});
     keyframe.frame.camera = {320, 240, 260.0, 260.0, 160.0, 120.0, {}};
     keyframe.frame.colour = cv::Mat(240, 320, CV_8UC3, cv::Scalar(128, 128, 128));
@@ -38,8 +38,8 @@ class RoomTest : public testing::Test {
     return keyframe;
   }
 
-  Keyframe with_person() const {
-    Keyframe keyframe = wall_with_tv();
+  MapKeyframe with_person() const {
+    MapKeyframe keyframe = wall_with_tv();
     keyframe.frame.depth(person_).setTo(1500);
     keyframe.frame.colour(person_).setTo(cv::Scalar(0, 0, 255));
     keyframe.instances.labels(person_).setTo(kPersonLabel);
@@ -99,7 +99,7 @@ TEST_F(RoomTest, ColoursTheTvByItsClassAndCountsIt) {
 }
 
 TEST_F(RoomTest, LetsAPersonFadeWhoWasMissedOnce) {
-  Keyframe missed = with_person();
+  MapKeyframe missed = with_person();
   missed.has_labels = false;
   ASSERT_TRUE(map_.integrate(missed));
   EXPECT_GT(leaves_in_the_open(), 50);
@@ -112,7 +112,7 @@ TEST_F(RoomTest, LetsAPersonFadeWhoWasMissedOnce) {
 }
 
 TEST_F(RoomTest, LeavesOutAChairThatMovesAndKeepsOneThatDoesNot) {
-  Keyframe keyframe = with_person();
+  MapKeyframe keyframe = with_person();
   keyframe.instances.instances[1] = {"chair", 1.0F, {}, MotionVerdict::kStatic};
   ASSERT_TRUE(map_.integrate(keyframe));
   EXPECT_GT(leaves_in_the_open(), 50);
@@ -138,14 +138,14 @@ TEST_F(RoomTest, CountsPointsBeforeAndAfterFiltering) {
 TEST_F(RoomTest, RefusesAKeyframeThatIsNotSoundAndStaysAsItWas) {
   ASSERT_TRUE(map_.integrate(wall_with_tv()));
   const std::string before = map_.octree().to_ot();
-  Keyframe nowhere = wall_with_tv();
+  MapKeyframe nowhere = wall_with_tv();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   nowhere.T_world_camera = looking_forward({nan, 0.0, 0.0});
   EXPECT_FALSE(map_.integrate(nowhere));
-  Keyframe far_away = wall_with_tv();
+  MapKeyframe far_away = wall_with_tv();
   far_away.T_world_camera = looking_forward({1e7, 0.0, 0.0});
   EXPECT_FALSE(map_.integrate(far_away));
-  Keyframe blind = wall_with_tv();
+  MapKeyframe blind = wall_with_tv();
   blind.frame.depth.setTo(0);
   EXPECT_FALSE(map_.integrate(blind));
   EXPECT_EQ(map_.octree().to_ot(), before);
@@ -154,7 +154,7 @@ TEST_F(RoomTest, RefusesAKeyframeThatIsNotSoundAndStaysAsItWas) {
 
 TEST_F(RoomTest, IsTheSameForTheSameKeyframes) {
   SemanticMap other{MapConfig{}};
-  for (const Keyframe& keyframe : {with_person(), wall_with_tv()}) {
+  for (const MapKeyframe& keyframe : {with_person(), wall_with_tv()}) {
     ASSERT_TRUE(map_.integrate(keyframe));
     ASSERT_TRUE(other.integrate(keyframe));
   }
@@ -166,7 +166,7 @@ TEST_F(RoomTest, SurvivesAnyImagesFromTheEdgeOfTheMap) {
   constexpr unsigned kSeed = 11;
   SCOPED_TRACE(kSeed);
   cv::RNG random(kSeed);
-  Keyframe keyframe = with_person();
+  MapKeyframe keyframe = with_person();
   std::size_t accepted = 0;
   for (int round = 0; round < 6; ++round) {
     cv::Mat small(12, 16, CV_16UC1);

@@ -61,11 +61,11 @@ class Evaluation {
 };
 
 void Evaluation::add(const PlannedKeyframe& planned) {
-  Keyframe keyframe{.id = planned.frame,
-                    .T_world_camera = planned.T_world_camera,
-                    .frame = value_or_throw(read_frame(sequence_.folder, planned.frame)),
-                    .has_labels = true,
-                    .instances = planned.instances};
+  MapKeyframe keyframe{.id = planned.frame,
+                       .T_world_camera = planned.T_world_camera,
+                       .frame = value_or_throw(read_frame(sequence_.folder, planned.frame)),
+                       .has_labels = true,
+                       .instances = planned.instances};
   points_.measured += static_cast<std::size_t>(cv::countNonZero(keyframe.frame.depth));
   count_views(planned, keyframe.frame);
   if (!options_.exclude) {
