@@ -10,6 +10,7 @@
 
 #include "services/map_server/lib/back_projection.hpp"
 #include "services/map_server/lib/semantic_map.hpp"
+#include "services/map_server/lib/tags/tag_library.hpp"
 #include "services/map_server/lib/voxel_grid.hpp"
 
 namespace tsg {
@@ -205,6 +206,50 @@ void whole_keyframe(benchmark::State& state) {
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
+/// What 20 things as large as chairs look like from 3 m: 500 voxels, 3500 pixels each.
+KeyframeView view_of_twenty(std::uint64_t id) {
+  cv::RNG noise(id);
+  KeyframeView view;
+  view.id = id;
+  for (int thing = 0; thing < 20; ++thing) {
+    InstanceView seen{{"chair", 0.9F, {}, MotionVerdict::kStatic}, {}};
+    const Eigen::Vector3f corner(0.7F * float(thing % 5), 0.7F * float(thing / 5), 3.0F);
+    for (int i = 0; i < 500; ++i) {
+      const Eigen::Vector3f within(0.02F * float(i % 25), 0.02F * float(i / 25),
+                                   float(noise.gaussian(0.015)));
+      seen.points.push_back({corner + within, {120, 90, 60}, 57, 7});
+    }
+    view.points.insert(view.points.end(), seen.points.begin(), seen.points.end());
+    view.instances.push_back(std::move(seen));
+  }
+  return view;
+}
+
+/// A keyframe into the tag library; with `listed` somebody asks for the tags after each.
+void tags(benchmark::State& state, bool listed) {
+  std::vector<KeyframeView> views;
+  for (std::uint64_t id = 0; id < kKeyframes; ++id) views.push_back(view_of_twenty(id));
+  const auto occupied = [](const Eigen::Vector3f& /*position*/) { return Place::kOccupied; };
+  std::size_t found = 0;
+  for (auto _ : state) {
+    TagLibrary library{TagConfig{}};
+    for (const KeyframeView& view : views) {
+      library.add(view, SE3(), occupied);
+      if (listed) benchmark::DoNotOptimize(library.tags().data());
+    }
+    state.PauseTiming();
+    found = library.tags().size();
+    state.ResumeTiming();
+  }
+  state.SetItemsProcessed(state.iterations() * kKeyframes);
+  state.counters["time_per_keyframe"] =
+      benchmark::Counter(double(state.iterations()) * kKeyframes,
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["tags"] = double(found);
+}
+
+BENCHMARK_CAPTURE(tags, alone, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tags, listed_each_time, true)->Unit(benchmark::kMillisecond);
 BENCHMARK(back_projection)->Unit(benchmark::kMillisecond);
 BENCHMARK(keyframe_voxel_filter)->Unit(benchmark::kMillisecond);
 BENCHMARK(octree_batched)->Unit(benchmark::kMillisecond);

@@ -18,7 +18,7 @@
 namespace tsg::test {
 
 inline constexpr std::chrono::seconds kPatience{20};  // sanitizers on a busy machine
-inline constexpr std::chrono::seconds kBeforeRepeat{5};
+inline constexpr std::chrono::seconds kBeforeRepeat{10};
 
 /// tsg-slam in a process of its own, and the rest of the system played by the test.
 class SlamService : public ::testing::Test {

@@ -61,8 +61,8 @@ inline KeyframeView view_of(std::uint64_t id, const std::vector<Shown>& things) 
       point.position = T_camera_world * point.position;
     }
   }
-  for (float y = -2.5F; y <= 2.5F; y += 0.05F) {
-    for (float z = -1.0F; z <= 3.0F; z += 0.05F) {
+  for (float y = -2.5F; y <= 2.5F; y += 0.2F) {
+    for (float z = -1.0F; z <= 3.0F; z += 0.2F) {
       view.points.push_back({T_camera_world * Eigen::Vector3f(4.5F, y, z), {}, 0, 1});
     }
   }

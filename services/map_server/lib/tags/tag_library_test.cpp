@@ -195,8 +195,9 @@ TEST_F(TagLibraryTest, TakesAGlimpseForNothing) {
 
 TEST_F(TagLibraryTest, ForgetsTheOldestOfManyMistakes) {
   for (int i = 0; i < 600; ++i) {
-    const float y = 0.5F * static_cast<float>(i);
-    show({{"cup", surface_of({2.0F, y, 1.0F}, {2.1F, y + 0.1F, 1.1F})}}, 1);
+    const float y = -2.5F + 0.2F * static_cast<float>(i % 25);
+    const float z = 0.2F * static_cast<float>(i / 25);
+    show({{"cup", surface_of({2.0F, y, z}, {2.1F, y + 0.1F, z + 0.1F})}}, 1);
   }
   EXPECT_THAT(library_.tentative(), SizeIs(500));
   EXPECT_EQ(library_.tentative().back().id, 600U);

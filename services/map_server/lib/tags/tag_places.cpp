@@ -7,7 +7,7 @@ namespace tsg {
 namespace {
 
 constexpr std::size_t kPlaceSamples = 64;  // voxels of a tag: a share good to 6 %
-constexpr std::size_t kViewStride = 16;    // of a keyframe's points: enough for its outline
+constexpr std::size_t kViewStride = 8;     // of a keyframe's points: enough for its outline
 
 }  // namespace
 

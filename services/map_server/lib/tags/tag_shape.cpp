@@ -17,6 +17,7 @@ constexpr double kEnoughKeyframes = 3.0;
 constexpr double kTrim = 0.005;
 constexpr std::size_t kMaxPositions = 1500;  // of a cloud, to measure it
 constexpr float kNoiseReach = 2.0F;          // standard deviations of depth
+constexpr float kMaxReach_m = 0.2F;          // at the rim of a wide image noise is guessed too high
 constexpr int kShifts = 2;
 constexpr int kYawSteps = 18;  // of 5 degrees, within a quarter turn
 constexpr float kYawStep_rad = static_cast<float>(M_PI_2) / kYawSteps;
@@ -30,7 +31,7 @@ constexpr std::size_t kRoughPositions = 500;
 Eigen::Vector3f on_surface(const TagCell& cell, const TagCells& cells) {
   const float noise_m = cell.depth_noise.norm();
   const auto step_m = static_cast<float>(cells.voxel_m());
-  const int steps = static_cast<int>(kNoiseReach * noise_m / step_m);
+  const int steps = static_cast<int>(std::min(kNoiseReach * noise_m, kMaxReach_m) / step_m);
   if (steps == 0) return cell.position;
   const Eigen::Vector3f ray = cell.depth_noise / noise_m;
   Eigen::Vector3f position = cell.position;
